@@ -1,0 +1,75 @@
+//! Decodes a dump from standard input: one JSON object a frame, then a summary.
+//!
+//! `decode --format t485 --angle-bits 23 < dump.txt`; parameters as in
+//! [`encoderscope::profile`]. With `--detect`, ranks what the dump may be instead.
+
+use encoderscope::{
+    decode::{Decoded, Decoder},
+    dump,
+    profile::Profile,
+};
+use std::{
+    io::{self, Read, Write},
+    process::ExitCode,
+};
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("decode: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn std::error::Error>> {
+    let mut pairs = Vec::new();
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        let name = word
+            .strip_prefix("--")
+            .ok_or_else(|| format!("{word:?} is no option; write --name value"))?;
+        let (name, value) = match name.split_once('=') {
+            Some((name, value)) => (name.to_owned(), value.to_owned()),
+            None => {
+                let value = words
+                    .next()
+                    .ok_or_else(|| format!("--{name} needs a value"))?;
+                (name.to_owned(), value)
+            }
+        };
+        pairs.push((name, value));
+    }
+    let profile = Profile::parse(
+        pairs
+            .iter()
+            .map(|(name, value)| (name.as_str(), value.as_str())),
+    )?;
+    let decoder = Decoder::new(profile)?;
+    let mut input = Vec::new();
+    io::stdin().read_to_end(&mut input)?;
+    let text = String::from_utf8_lossy(&input);
+    let dump = dump::parse(&text, profile.format.medium());
+
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let mut broken = Ok(());
+    let summary = decoder.dump(&dump, &mut |decoded| {
+        if let Decoded::Frame(frame) = decoded
+            && broken.is_ok()
+        {
+            broken = writeln!(out, "{}", frame.record());
+        }
+    });
+    broken?;
+    writeln!(out, "{}", summary.record())?;
+    out.flush()?;
+    for place in &dump.unread {
+        eprintln!(
+            "decode: not readable, left out: {:?} at byte {}",
+            &text[place.clone()],
+            place.start
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,240 @@
+//! Bit strings: the only module that shifts.
+//!
+//! A bit string is read as a wire or a byte dump shows it: bit 0 comes first and is the most
+//! significant bit of the first byte. Numbers inside it are most significant bit first.
+
+use alloc::vec::Vec;
+
+/// A run of bits inside a bit string.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Span {
+    /// Index of the first bit.
+    pub start: usize,
+    /// Number of bits.
+    pub len: usize,
+}
+
+impl Span {
+    /// A run of `len` bits from `start`.
+    #[must_use]
+    pub const fn new(start: usize, len: usize) -> Self {
+        Self { start, len }
+    }
+
+    /// Index one past the last bit.
+    #[must_use]
+    pub const fn end(self) -> usize {
+        self.start + self.len
+    }
+
+    /// Whether the bit `index` lies in this run.
+    #[must_use]
+    pub const fn contains(self, index: usize) -> bool {
+        index >= self.start && index < self.end()
+    }
+}
+
+/// A borrowed bit string.
+///
+/// ```
+/// use encoderscope::bits::{Bits, Span};
+/// let bits = Bits::of_bytes(&[0b1000_0010, 0xff]);
+/// assert_eq!(bits.read(Span::new(6, 4)), 0b1011);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bits<'a> {
+    bytes: &'a [u8],
+    len: usize,
+}
+
+impl<'a> Bits<'a> {
+    /// All bits of `bytes`.
+    #[must_use]
+    pub const fn of_bytes(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            len: bytes.len() * 8,
+        }
+    }
+
+    /// Number of bits.
+    #[must_use]
+    pub const fn len(self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no bits.
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.len == 0
+    }
+
+    /// The bytes that hold the bits; unused low bits of the last one are zero or idle.
+    #[must_use]
+    pub const fn bytes(self) -> &'a [u8] {
+        self.bytes
+    }
+
+    /// The bit at `index`; bits beyond the end read as 0.
+    #[must_use]
+    pub fn bit(self, index: usize) -> bool {
+        index < self.len && (self.bytes[index / 8] >> (7 - index % 8)) & 1 == 1
+    }
+
+    /// The number in `span`, most significant bit first; of spans over 64 bits the last 64.
+    #[must_use]
+    pub fn read(self, span: Span) -> u64 {
+        let mut value = 0u64;
+        let mut at = span.start;
+        while at < span.end() {
+            let take = (8 - at % 8).min(span.end() - at);
+            let byte = if at < self.len { self.bytes[at / 8] } else { 0 };
+            let part = (u64::from(byte) >> (8 - at % 8 - take)) & mask(take);
+            value = (value << take) | part;
+            at += take;
+        }
+        value
+    }
+
+    /// The number in `span` as bytes, big-endian, with zero bits in front.
+    ///
+    /// A checksum that starts from 0 is not changed by those zeros, so a byte-wise CRC serves
+    /// bit strings of any length. Returns the bytes and how many of them are used, at the end.
+    #[must_use]
+    pub fn right_aligned<const N: usize>(self, span: Span) -> ([u8; N], usize) {
+        let mut out = [0; N];
+        let count = span.len.div_ceil(8).min(N);
+        let mut end = span.end();
+        for slot in out.iter_mut().rev().take(count) {
+            let start = end.saturating_sub(8).max(span.start);
+            *slot = low_byte(self.read(Span::new(start, end - start)));
+            end = start;
+        }
+        (out, count)
+    }
+}
+
+/// An owned bit string.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BitString {
+    bytes: Vec<u8>,
+    len: usize,
+}
+
+impl BitString {
+    /// `len` zero bits.
+    #[must_use]
+    pub fn zeros(len: usize) -> Self {
+        Self {
+            bytes: alloc::vec![0; len.div_ceil(8)],
+            len,
+        }
+    }
+
+    /// All bits of `bytes`.
+    #[must_use]
+    pub fn of_bytes(bytes: Vec<u8>) -> Self {
+        let len = bytes.len() * 8;
+        Self { bytes, len }
+    }
+
+    /// Appends one bit.
+    pub fn push(&mut self, bit: bool) {
+        if self.len.is_multiple_of(8) {
+            self.bytes.push(0);
+        }
+        self.len += 1;
+        self.write(Span::new(self.len - 1, 1), u64::from(bit));
+    }
+
+    /// Puts the low bits of `value` into `span`; bits beyond the end are dropped.
+    pub fn write(&mut self, span: Span, value: u64) {
+        for (offset, index) in (span.start..span.end()).rev().enumerate() {
+            if index < self.len {
+                let at = 0x80 >> (index % 8);
+                if offset < 64 && (value >> offset) & 1 == 1 {
+                    self.bytes[index / 8] |= at;
+                } else {
+                    self.bytes[index / 8] &= !at;
+                }
+            }
+        }
+    }
+
+    /// Turns the bit at `index` over.
+    pub fn flip(&mut self, index: usize) {
+        let now = self.as_bits().bit(index);
+        self.write(Span::new(index, 1), u64::from(!now));
+    }
+
+    /// A view of all bits.
+    #[must_use]
+    pub fn as_bits(&self) -> Bits<'_> {
+        Bits {
+            bytes: &self.bytes,
+            len: self.len,
+        }
+    }
+
+    /// The bytes that hold the bits.
+    #[must_use]
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+}
+
+/// `width` ones, right-aligned; 64 or more give all ones.
+#[must_use]
+pub const fn mask(width: usize) -> u64 {
+    if width >= 64 {
+        u64::MAX
+    } else {
+        (1 << width) - 1
+    }
+}
+
+/// How many codes a number of `width` bits has: 2^`width`.
+#[must_use]
+pub const fn codes(width: u32) -> u128 {
+    1 << if width > 127 { 127 } else { width }
+}
+
+/// The bit of `value` at `place`, 0 being the least significant.
+#[must_use]
+pub const fn bit(value: u64, place: u32) -> bool {
+    place < 64 && (value >> place) & 1 == 1
+}
+
+/// The `width` bits of `value` whose least significant one stands at `place`.
+#[must_use]
+pub const fn slice(value: u64, place: u32, width: usize) -> u64 {
+    if place > 63 {
+        0
+    } else {
+        (value >> place) & mask(width)
+    }
+}
+
+/// `value` moved up so that its least significant bit stands at `place`.
+#[must_use]
+pub const fn placed(value: u64, place: u32) -> u64 {
+    if place > 63 { 0 } else { value << place }
+}
+
+/// The low eight bits.
+#[must_use]
+pub const fn low_byte(value: u64) -> u8 {
+    (value & 0xff) as u8
+}
+
+/// The low 16 bits of `value` as a two's-complement number.
+#[must_use]
+pub const fn signed16(value: u64) -> i32 {
+    (value & 0xffff) as u16 as i16 as i32
+}
+
+/// `value` as the low 16 bits of a two's-complement number.
+#[must_use]
+pub const fn from_signed16(value: i32) -> u64 {
+    value as u16 as u64
+}

@@ -1,0 +1,188 @@
+//! What the bits say: one note a field, for every format, out of its layout table.
+
+use crate::{
+    bits::{self, Bits, Span},
+    layout::{Active, Class, Field, Resolved, Role},
+    reading::{Checked, Fault, degrees},
+};
+use alloc::{
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
+
+/// The explanation of one field of a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// Name of the field.
+    pub name: &'static str,
+    /// Its class, which decides its colour.
+    pub class: Class,
+    /// Where it stands, most significant part first.
+    pub spans: Vec<Span>,
+    /// What the field is.
+    pub doc: String,
+    /// Its number.
+    pub raw: u64,
+    /// What its number says in this frame.
+    pub text: String,
+    /// Its single bits, where they have names, most significant first.
+    pub bits: Vec<BitNote>,
+    /// What is wrong with it.
+    pub fault: Option<Fault>,
+}
+
+/// The explanation of one named bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BitNote {
+    /// Index in the frame.
+    pub at: usize,
+    /// Name.
+    pub name: &'static str,
+    /// Whether it is set.
+    pub set: bool,
+    /// What it means when it is set, and what to do.
+    pub doc: &'static str,
+}
+
+impl Resolved {
+    /// Explains every field of a frame in transmission order; together the notes cover every
+    /// bit once.
+    #[must_use]
+    pub fn explain(&self, bits: Bits<'_>) -> Vec<Note> {
+        self.fields().map(|field| self.note(field, bits)).collect()
+    }
+
+    fn note(&self, field: &Field, bits: Bits<'_>) -> Note {
+        let raw = self.read(field, bits);
+        let spans: Vec<Span> = self.parts(field).iter().map(|part| part.span).collect();
+        Note {
+            name: field.row.name,
+            class: field.row.role.class(),
+            doc: field
+                .row
+                .doc
+                .iter()
+                .map(|line| line.trim())
+                .collect::<Vec<_>>()
+                .join(" "),
+            raw,
+            text: text(field, raw, bits),
+            bits: self.named_bits(field, raw),
+            fault: self.fault(field, bits),
+            spans,
+        }
+    }
+
+    fn named_bits(&self, field: &Field, raw: u64) -> Vec<BitNote> {
+        let named = field
+            .row
+            .bits
+            .iter()
+            .filter(|named| named.place < field.width);
+        named
+            .filter_map(|named| {
+                let part = self.parts(field).iter().find(|part| {
+                    (part.place..part.place + part.span.len as u32).contains(&named.place)
+                })?;
+                Some(BitNote {
+                    at: part.span.end() - 1 - (named.place - part.place) as usize,
+                    name: named.name,
+                    set: bits::bit(raw, named.place),
+                    doc: named.doc,
+                })
+            })
+            .collect()
+    }
+}
+
+/// What the number of a field says.
+fn text(field: &Field, raw: u64, bits: Bits<'_>) -> String {
+    let asserted = (raw != 0) == (field.row.active == Active::High);
+    match field.row.role {
+        Role::Turns => format!("{} turns", grouped(raw)),
+        Role::Angle => format!(
+            "{} of {} → {:.4}°",
+            grouped(raw),
+            grouped(u64::try_from(bits::codes(field.width)).unwrap_or(u64::MAX)),
+            degrees(raw, field.width)
+        ),
+        Role::Error if asserted => "error: the position is not valid".into(),
+        Role::Error => "no error: the position is valid".into(),
+        Role::Warning if asserted => "warning: something is near its limit".into(),
+        Role::Warning => "no warning".into(),
+        Role::Status | Role::Alarm => {
+            let set: Vec<_> = field
+                .row
+                .bits
+                .iter()
+                .filter(|named| bits::bit(raw, named.place))
+                .map(|named| named.name)
+                .collect();
+            if set.is_empty() && raw == 0 {
+                "all well".into()
+            } else if set.is_empty() {
+                "bits without a name are set".into()
+            } else {
+                set.join(", ")
+            }
+        }
+        Role::Enid | Role::MemoryData => format!("0x{raw:02X}"),
+        Role::Speed => format!("{} rev/s", tenths(bits::signed16(raw))),
+        Role::Temperature => format!("{} °C", tenths(bits::signed16(raw))),
+        Role::Count => format!("{raw} counted"),
+        Role::Operation => format!("data ID {raw}"),
+        Role::MemoryAddress => format!("address 0x{raw:02X}"),
+        Role::Crc | Role::Parity => check_text(field, raw, bits),
+        Role::Padding if raw == 0 => "zero".into(),
+        Role::Padding => "not zero: the number is wider than the profile says".into(),
+        Role::Framing => String::new(),
+    }
+}
+
+fn check_text(field: &Field, received: u64, bits: Bits<'_>) -> String {
+    let Some((sum, over)) = field.cover else {
+        return String::new();
+    };
+    let checked = Checked {
+        expected: sum.compute(bits, over),
+        received,
+    };
+    let verdict = if checked.ok() { "holds" } else { "fails" };
+    let name = sum.name();
+    let len = over.len;
+    if sum.width() == 1 {
+        format!("{verdict}: {name} over {len} bits")
+    } else {
+        format!(
+            "{verdict}: computed 0x{:02X}, {name}, over {len} bits",
+            checked.expected
+        )
+    }
+}
+
+/// A number of tenths with its decimal point.
+#[must_use]
+pub fn tenths(value: i32) -> String {
+    let sign = if value < 0 { "−" } else { "" };
+    let value = value.unsigned_abs();
+    format!("{sign}{}.{}", value / 10, value % 10)
+}
+
+/// Digits in groups of three with thin spaces between.
+///
+/// ```
+/// assert_eq!(encoderscope::explain::grouped(8_388_608), "8\u{202f}388\u{202f}608");
+/// ```
+#[must_use]
+pub fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let mut out = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            out.push('\u{202f}');
+        }
+        out.push(digit);
+    }
+    out
+}

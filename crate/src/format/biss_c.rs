@@ -1,0 +1,177 @@
+//! BiSS-C: the synchronous interface of MPP and PT, and of other makers (MPP "BISS-C", PT
+//! "BISS-C"; wire.md §2).
+//!
+//! `ack[zeros] start=1 cds=0 turns angle nError nWarning status crc`, most significant bit
+//! first. Error and warning are active low; the CRC-6 is inverted and covers everything from
+//! the turns to the bit before it.
+//!
+//! ```
+//! use encoderscope::{bits::Bits, decode::Decoder, profile::Profile};
+//! let decoder = Decoder::new(Profile::parse([("format", "biss-c"), ("angle-bits", "17")])?)?;
+//! // 0x82 is an idle bit, five acknowledge zeros, start and cds; the data begins with the
+//! // second byte.
+//! let frame = decoder.line(Bits::of_bytes(&[0x82, 0x00, 0x05, 0x80, 0x00, 0x60, 0x68])).unwrap();
+//! let values = frame.values();
+//! assert!(frame.ok());
+//! assert_eq!((values.turns, values.angle, values.error), (Some(5), Some(65_536), Some(false)));
+//! # Ok::<(), encoderscope::profile::ProfileError>(())
+//! ```
+//!
+//! Where the manuals mislead: the printed row puts the error at b7 and leaves no room for the
+//! CRC; their own status table and frame lengths fit only error b13, warning b12, status
+//! b11…b6, CRC b5…b0. The CRC-6 polynomial is x⁶+x+1, not x⁶+x⁵+1.
+
+use super::STATUS;
+use crate::{
+    bits::Bits,
+    check::Checksum,
+    layout::{Active, Check, Shape, layout},
+    profile::{Justify, Profile},
+};
+
+layout! {
+    /// BiSS-C frame with what stands around it in a dump.
+    pub static FRAME(p) {
+        /// Line idle before the frame.
+        idle: Framing[p.idle], active = Active::Low;
+        /// Acknowledge: the encoder pulls the line low while it gets its data ready.
+        ack: Framing[if p.preamble { p.ack } else { 0 }], constant = Some(0);
+        /// Start bit, the first bit after the latency.
+        start: Framing[u32::from(p.preamble)], constant = Some(1);
+        /// Control data bit, unused by these encoders.
+        cds: Framing[u32::from(p.preamble)];
+        /// Whole turns.
+        turns: Turns[p.turns_bits];
+        /// Angle within one turn.
+        angle: Angle[p.angle_bits];
+        /// Active low: 0 says that the position is not valid.
+        nError: Error[1], active = Active::Low;
+        /// Active low: 0 says that something is near its limit; the position is valid.
+        nWarning: Warning[1], active = Active::Low;
+        /// Battery, magnetic field, temperature and speed.
+        status: Status[p.status_bits], bits = STATUS;
+        /// Inverted remainder over everything from the turns to the bit before it.
+        crc: Crc[6], check = Check::from(Checksum::Crc6Biss, "turns");
+        /// Time-out and line idle after the frame.
+        tail: Framing[p.tail];
+    }
+}
+
+/// Number of bits from the first turns or angle bit to the last CRC bit.
+#[must_use]
+pub const fn data_bits(profile: &Profile) -> u32 {
+    profile.turns_bits + profile.angle_bits + 2 + profile.status_bits + Checksum::Crc6Biss.width()
+}
+
+/// Where the data can stand in a line of a dump.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shapes {
+    /// Behind idle ones, acknowledge zeros, start 1 and cds.
+    pub framed: Option<Shape>,
+    /// Alone, with at most seven bits of byte padding.
+    pub bare: Option<Shape>,
+    /// A line too short for any shape would need this many bits.
+    pub need: u32,
+}
+
+/// Finds the shapes that a line of a dump can have.
+///
+/// Data that starts with zeros and a one looks like a preamble too, so both may fit; which one
+/// is meant is decided over all lines of a dump, by [`crate::decode::Decoder::dump`].
+#[must_use]
+pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Shapes {
+    match profile.justify {
+        Justify::Left => left(profile, bits),
+        Justify::Right => right(profile, bits),
+    }
+}
+
+fn left(profile: &Profile, bits: Bits<'_>) -> Shapes {
+    let data = data_bits(profile);
+    let len = bits.len() as u32;
+    let bare = len
+        .checked_sub(data)
+        .filter(|tail| *tail < 8)
+        .map(|tail| bare(profile, 0, tail));
+    let mut shapes = Shapes {
+        framed: None,
+        bare,
+        need: data,
+    };
+    if let Some((idle, ack)) = preamble(bits) {
+        let need = idle + ack + 2 + data;
+        match len.checked_sub(need) {
+            Some(tail) => {
+                shapes.framed = Some(Shape {
+                    profile: *profile,
+                    idle,
+                    preamble: true,
+                    ack,
+                    tail,
+                });
+            }
+            // A capture with the profile's own preamble that ends too early is a short frame:
+            // its CRC-6 read at the wrong place would pass once in 64.
+            None if idle > 0 && ack == profile.ack_bits => {
+                return Shapes {
+                    framed: None,
+                    bare: None,
+                    need,
+                };
+            }
+            None => {}
+        }
+    }
+    shapes
+}
+
+fn right(profile: &Profile, bits: Bits<'_>) -> Shapes {
+    let data = data_bits(profile);
+    let Some(before) = (bits.len() as u32).checked_sub(data) else {
+        return Shapes {
+            framed: None,
+            bare: None,
+            need: data,
+        };
+    };
+    let framed = before.checked_sub(2).and_then(|start| {
+        let zeros = (0..start)
+            .rev()
+            .take_while(|at| !bits.bit(*at as usize))
+            .count() as u32;
+        (bits.bit(start as usize) && zeros > 0).then(|| Shape {
+            profile: *profile,
+            idle: start - zeros,
+            preamble: true,
+            ack: zeros,
+            tail: 0,
+        })
+    });
+    Shapes {
+        framed,
+        bare: Some(bare(profile, before, 0)),
+        need: data,
+    }
+}
+
+const fn bare(profile: &Profile, idle: u32, tail: u32) -> Shape {
+    Shape {
+        profile: *profile,
+        idle,
+        preamble: false,
+        ack: 0,
+        tail,
+    }
+}
+
+/// Idle ones and acknowledge zeros in front of a start bit.
+fn preamble(bits: Bits<'_>) -> Option<(u32, u32)> {
+    let run = |from: usize, level: bool| {
+        (from..bits.len())
+            .take_while(|at| bits.bit(*at) == level)
+            .count()
+    };
+    let idle = run(0, true);
+    let ack = run(idle, false);
+    (ack > 0 && idle + ack < bits.len()).then_some((idle as u32, ack as u32))
+}

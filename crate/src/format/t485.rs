@@ -1,0 +1,270 @@
+//! T485: the Tamagawa-compatible protocol of MPP and PT encoders (MPP "T485", PT "T485
+//! protocol interface"; wire.md §4).
+//!
+//! 2 500 000 baud, 8N1. The host sends one control byte; the reply echoes it, adds a status
+//! field and little-endian data, and ends with the exclusive or of all bytes before. Reading
+//! requests never change the encoder; [`Request::changes_encoder`] names those that do.
+//!
+//! ```
+//! use encoderscope::{decode::Decoder, profile::Profile};
+//! let decoder = Decoder::new(Profile::parse([("format", "t485")])?)?;
+//! let reply = [0x1a, 0x20, 0x29, 0xc0, 0x3b, 0x17, 0x00, 0x00, 0x00, 0xc8, 0x37];
+//! let frame = decoder.frame(&reply).unwrap();
+//! let values = frame.values();
+//! assert_eq!((values.angle, values.turns, values.error), (Some(3_915_817), Some(0), Some(true)));
+//! let again = frame.layout.encode(&values);
+//! assert_eq!(again.into_bytes(), reply);
+//! # Ok::<(), encoderscope::profile::ProfileError>(())
+//! ```
+//!
+//! Where the manuals mislead: the data is right-aligned, not left-aligned (note 1); the CRC is
+//! x⁸+1, not x+1 (note 2); the "17" of byte 5 is the ENID, 0x17 or 0x11, and is never required.
+
+use crate::{
+    check::Checksum,
+    layout::{Check, Layout, Role, StatusBit, layout},
+};
+
+/// A request of the host, named by its effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// 0x02: angle.
+    Angle,
+    /// 0x8A: turns.
+    Turns,
+    /// 0x92: encoder identity (Tamagawa only).
+    Identity,
+    /// 0x1A: angle, identity, turns and alarm.
+    All,
+    /// 0x32: EEPROM write (Tamagawa only).
+    MemoryWrite,
+    /// 0xBA, ten times: reset errors (Tamagawa only).
+    ResetErrors,
+    /// 0xC2, ten times: the present angle becomes 0.
+    ResetAngle,
+    /// 0x62, ten times: turns become 0.
+    ResetTurns,
+    /// 0xEA: EEPROM read (Tamagawa only).
+    MemoryRead,
+}
+
+impl Request {
+    /// All requests.
+    pub const ALL: &[Self] = &[
+        Self::Angle,
+        Self::Turns,
+        Self::Identity,
+        Self::All,
+        Self::MemoryWrite,
+        Self::ResetErrors,
+        Self::ResetAngle,
+        Self::ResetTurns,
+        Self::MemoryRead,
+    ];
+
+    /// The control byte on the wire.
+    #[must_use]
+    pub const fn byte(self) -> u8 {
+        match self {
+            Self::Angle => 0x02,
+            Self::Turns => 0x8a,
+            Self::Identity => 0x92,
+            Self::All => 0x1a,
+            Self::MemoryWrite => 0x32,
+            Self::ResetErrors => 0xba,
+            Self::ResetAngle => 0xc2,
+            Self::ResetTurns => 0x62,
+            Self::MemoryRead => 0xea,
+        }
+    }
+
+    /// The request of a control byte.
+    #[must_use]
+    pub fn of_byte(byte: u8) -> Option<Self> {
+        Self::ALL
+            .iter()
+            .copied()
+            .find(|request| request.byte() == byte)
+    }
+
+    /// Whether the encoder may hold something else afterwards.
+    #[must_use]
+    pub const fn changes_encoder(self) -> bool {
+        match self {
+            Self::Angle | Self::Turns | Self::Identity | Self::All | Self::MemoryRead => false,
+            Self::MemoryWrite | Self::ResetErrors | Self::ResetAngle | Self::ResetTurns => true,
+        }
+    }
+
+    /// The layout of the reply.
+    #[must_use]
+    pub fn reply(self) -> &'static Layout {
+        match self {
+            Self::Angle | Self::ResetErrors | Self::ResetAngle | Self::ResetTurns => &ANGLE,
+            Self::Turns => &TURNS,
+            Self::Identity => &IDENTITY,
+            Self::All => &ALL,
+            Self::MemoryWrite | Self::MemoryRead => &MEMORY,
+        }
+    }
+}
+
+/// The status field (Tamagawa SF).
+pub static STATUS_FIELD: &[StatusBit] = &[
+    StatusBit {
+        place: 7,
+        name: "delimiter error",
+        doc: "the request had no valid stop bit (Tamagawa); check baud, termination and A/B",
+        role: None,
+    },
+    StatusBit {
+        place: 6,
+        name: "communication error",
+        doc: "the encoder did not understand the request: parity or operation unknown",
+        role: None,
+    },
+    StatusBit {
+        place: 5,
+        name: "encoder error",
+        doc: "the position is not valid; the alarm byte of the 'all' reply says why",
+        role: Some(Role::Error),
+    },
+    StatusBit {
+        place: 4,
+        name: "counting error",
+        doc: "the position was miscounted (Tamagawa); power-cycle at standstill",
+        role: None,
+    },
+];
+
+/// The alarm byte of MPP and PT (manual: E). On Tamagawa's own encoders the bits differ.
+pub static ALARM: &[StatusBit] = &[
+    StatusBit {
+        place: 7,
+        name: "battery disconnected",
+        doc: "the turn counter was lost and restarted from 0; check the battery, then power-cycle",
+        role: None,
+    },
+    StatusBit {
+        place: 6,
+        name: "battery low",
+        doc: "below 2.9 V the turns are still good, below 2.7 V not; replace the battery",
+        role: None,
+    },
+];
+
+layout! {
+    /// The control byte, echoed from the request, and the status field.
+    pub static HEAD(p) {
+        /// Makes the number of ones in the operation even.
+        control_parity: Parity[1], check = Check::of(Checksum::EvenParity, "operation");
+        /// What the host asked for (Tamagawa data ID).
+        operation: Operation[4];
+        /// Fixed pattern 010 of every control byte.
+        sink: Framing[3], constant = Some(0b010);
+    }
+}
+
+layout! {
+    /// The status field (Tamagawa SF).
+    pub static SF(p) {
+        /// Errors of the link and of the encoder; the low four bits are 0.
+        status: Status[8], bits = STATUS_FIELD;
+    }
+}
+
+layout! {
+    /// A0 A1 A2.
+    pub static ANGLE_DATA(p) {
+        le {
+            /// The bits of A2 above the angle are 0: the angle is right-aligned.
+            angle_padding: Padding[24u32.saturating_sub(p.angle_bits)];
+            /// Angle within one turn.
+            angle: Angle[p.angle_bits];
+        }
+    }
+}
+
+layout! {
+    /// M0 M1 M2.
+    pub static TURNS_DATA(p) {
+        le {
+            /// The bits above the turn counter are 0.
+            turns_padding: Padding[24u32.saturating_sub(p.turns_bits)];
+            /// Whole turns since the counter was reset.
+            turns: Turns[p.turns_bits];
+        }
+    }
+}
+
+layout! {
+    /// The exclusive or of all bytes before it.
+    pub static CRC(p) {
+        /// Exclusive or of all bytes before it.
+        crc: Crc[8], check = Check::from(Checksum::Crc8Xor, "control_parity");
+    }
+}
+
+layout! {
+    /// Angle reply, six bytes: to 0x02, and to the resets 0xC2, 0x62 and 0xBA.
+    pub static ANGLE(p) {
+        include HEAD;
+        include SF;
+        include ANGLE_DATA;
+        include CRC;
+    }
+}
+
+layout! {
+    /// Turns reply, six bytes: to 0x8A.
+    pub static TURNS(p) {
+        include HEAD;
+        include SF;
+        include TURNS_DATA;
+        include CRC;
+    }
+}
+
+layout! {
+    /// Identity reply, four bytes: to 0x92 (Tamagawa only).
+    pub static IDENTITY(p) {
+        include HEAD;
+        include SF;
+        include ENID;
+        include CRC;
+    }
+}
+
+layout! {
+    /// Encoder identity.
+    pub static ENID(p) {
+        /// Encoder identity: bits per turn, 0x17 for 23 and 0x11 for 17; shown, never required.
+        enid: Enid[8];
+    }
+}
+
+layout! {
+    /// Reply with all data, eleven bytes: to 0x1A.
+    pub static ALL(p) {
+        include HEAD;
+        include SF;
+        include ANGLE_DATA;
+        include ENID;
+        include TURNS_DATA;
+        /// Battery alarms (manual: E, Tamagawa: ALMC).
+        alarm: Alarm[8], bits = ALARM;
+        include CRC;
+    }
+}
+
+layout! {
+    /// EEPROM frame, four bytes: the reply to 0x32 and 0xEA (Tamagawa only).
+    pub static MEMORY(p) {
+        include HEAD;
+        /// Address in the EEPROM.
+        memory_address: MemoryAddress[8];
+        /// The byte at that address.
+        memory_data: MemoryData[8];
+        include CRC;
+    }
+}

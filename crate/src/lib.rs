@@ -1,0 +1,31 @@
+//! Absolute rotary encoders on the wire: decode, explain, encode and converse.
+//!
+//! The stages, in the order the data takes them:
+//!
+//! - [`dump`]: pasted text to bytes and bits;
+//! - [`framing`]: bytes, cut anyhow, into frames and skips;
+//! - [`decode`]: a [`decode::Frame`] is bits and the layout that reads them;
+//! - [`reading`]: what the shaft does, from good frames only;
+//! - [`explain`]: what the bits say, from any frame;
+//! - [`session`]: the host's side of a conversation, [`emulator`] the encoder's.
+//!
+//! Every layout fact stands in one table of [`format`], made by `layout!` ([`layout`]). The
+//! crate does no I/O, reads no clock and does not panic on any input.
+#![no_std]
+
+extern crate alloc;
+
+pub mod bits;
+pub mod check;
+pub mod decode;
+pub mod dump;
+pub mod emulator;
+pub mod explain;
+pub mod format;
+pub mod framing;
+pub mod layout;
+pub mod model;
+pub mod profile;
+pub mod reading;
+pub mod record;
+pub mod session;

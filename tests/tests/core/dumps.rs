@@ -1,0 +1,182 @@
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use encoderscope::{decode::Decoder, dump, format::Medium, profile::Profile};
+use encoderscope_tests::{Noise, Stretch, decoder, paste, stretches};
+
+fn profile_error(pairs: &[(&str, &str)]) -> String {
+    Profile::parse(pairs.iter().copied())
+        .unwrap_err()
+        .to_string()
+}
+
+#[test]
+fn bytes_are_read_in_any_spelling() {
+    let expected = [0x1a, 0x20, 0x29, 0xc0];
+    for text in [
+        "1a 20 29 c0",
+        "1A2029C0",
+        "0x1A, 0x20,0x29,\t0xC0",
+        "{ 0x1a, 0x20, 0x29, 0xc0 };",
+        "\\x1a\\x20\\x29\\xc0",
+        "1a-20-29-c0",
+        "1a:20:29:c0\r\n",
+        "1a2029\nc0",
+        "00011010 00100000 00101001 11000000",
+    ] {
+        let dump = dump::parse(text, Medium::Bytes);
+        assert_eq!(dump.bytes(), expected, "{text:?}");
+        assert_eq!(dump.unread, [], "{text:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_named_and_the_rest_is_kept() {
+    let text = "1a 2z 29 0x é c0 123";
+    let dump = dump::parse(text, Medium::Bytes);
+    assert_eq!(dump.bytes(), [0x1a, 0x29, 0xc0]);
+    let unread: Vec<_> = dump
+        .unread
+        .iter()
+        .map(|place| &text[place.clone()])
+        .collect();
+    assert_eq!(unread, ["2z", "0x", "é", "123"]);
+}
+
+#[test]
+fn bit_strings_keep_their_length() {
+    let dump = dump::parse(
+        "1100101010101011111111\n82 00\n0b101 1\n1 0 1 1 0 0 1 0 1",
+        Medium::Bits,
+    );
+    let lens: Vec<_> = dump
+        .lines
+        .iter()
+        .map(|line| (line.bits.as_bits().len(), line.binary))
+        .collect();
+    assert_eq!(lens, [(22, true), (16, false), (4, true), (9, true)]);
+    assert!(!dump.is_bits());
+}
+
+#[test]
+fn a_biss_dump_may_be_bare_framed_or_a_number() {
+    let framed = "82 00 05 80 00 60 68";
+    let bare = "00 05 80 00 60 68";
+    for (parameters, text, good) in [
+        ("justify=left", framed, true),
+        ("justify=left", bare, true),
+        ("justify=right", "0002c0003034", true),
+        ("justify=right", "0000 0100 02c0 0030 34", true),
+        ("justify=left", "82 00 05 80 00 60 69", true),
+        ("justify=left", "82 00 05 80 00 60 6a", false),
+    ] {
+        let decoder = decoder(&format!("format=biss-c angle-bits=17 {parameters}"));
+        let found = stretches(&decoder, &paste(&decoder, text));
+        assert_eq!(
+            found.iter().all(Stretch::is_good),
+            good,
+            "{parameters} {text}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_biss_capture_that_ends_early_is_short_and_never_good() {
+    let decoder = decoder("format=biss-c angle-bits=17");
+    let whole = [0x82, 0x00, 0x05, 0x80, 0x00, 0x60, 0x68];
+    for len in 1..whole.len() {
+        let text: String = whole[..len]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
+        let found = stretches(&decoder, &paste(&decoder, &text));
+        assert!(
+            matches!(&found[..], [Stretch::Skip(..)]),
+            "{len}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn bad_parameters_are_named_with_what_would_fit() {
+    assert_eq!(
+        profile_error(&[("format", "t48")]),
+        "format: \"t48\" is not known; known: biss-c rs485 t485"
+    );
+    assert_eq!(
+        profile_error(&[]),
+        "format: is missing; known: biss-c rs485 t485"
+    );
+    assert_eq!(
+        profile_error(&[("format", "t485"), ("angle-bits", "40")]),
+        "angle-bits: 40 is not in 1…24 of T485"
+    );
+    assert_eq!(
+        profile_error(&[("format", "t485"), ("colour", "red")]),
+        "colour: is no parameter of a profile"
+    );
+    assert_eq!(
+        profile_error(&[("format", "rs485"), ("command", "x")]),
+        "command: \"x\" is no command; known: 0 1 d s t"
+    );
+    assert_eq!(
+        profile_error(&[("format", "biss-c"), ("angle-bits", "60")]),
+        "turns-bits: 16 and 60 bits of angle exceed the 64 of BiSS-C"
+    );
+    assert!(profile_error(&[("model", "MPP-20-30-A-24BM-T-N-A-M")]).contains("part 5"));
+}
+
+#[test]
+fn both_spellings_and_an_order_code_make_the_same_profile() {
+    let kebab = Profile::parse([("format", "t485"), ("angle-bits", "17")]).unwrap();
+    let camel = Profile::parse([("angleBits", "17"), ("format", "T485")]).unwrap();
+    let model = Profile::parse([("model", "pt-20-30-a-17bm-t-n-a-m")]).unwrap();
+    assert_eq!(kebab, camel);
+    assert_eq!(kebab, model);
+}
+
+#[test]
+fn nonsense_never_panics_and_every_byte_is_accounted_for() {
+    let mut noise = Noise::new(4);
+    let profiles = [
+        "format=t485",
+        "format=rs485",
+        "format=rs485 turns-bits=0 angle-bits=16 command=1",
+        "format=biss-c",
+    ];
+    for parameters in profiles {
+        let decoder: Decoder = decoder(parameters);
+        for _ in 0..300 {
+            let len = noise.below(200);
+            let text: String = (0..len)
+                .map(|_| match noise.below(12) {
+                    0 => '\n',
+                    1 => ' ',
+                    2 => char::from_u32(noise.below(0x500) as u32).unwrap_or('?'),
+                    3 => 'x',
+                    _ => char::from_digit(noise.below(16) as u32, 16).unwrap(),
+                })
+                .collect();
+            let dump = paste(&decoder, &text);
+            let mut seen = 0;
+            let summary = decoder.dump(&dump, &mut |decoded| {
+                seen += match &decoded {
+                    encoderscope::decode::Decoded::Frame(frame) => {
+                        assert_eq!(
+                            frame
+                                .explain()
+                                .iter()
+                                .flat_map(|note| &note.spans)
+                                .map(|span| span.len)
+                                .sum::<usize>(),
+                            frame.bits.len()
+                        );
+                        frame.bits.bytes().len()
+                    }
+                    encoderscope::decode::Decoded::Skip { bits, .. } => bits.bytes().len(),
+                } as u64;
+            });
+            assert_eq!(seen, summary.bytes, "{parameters} {text:?}");
+        }
+    }
+}

@@ -1,0 +1,299 @@
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use encoderscope::{
+    bits::Bits,
+    emulator::{Emulator, Faults, Shaft},
+    format::{rs485, t485},
+    reading::Reading,
+    session::{Echo, Micros, Output, Refusal, Session},
+};
+use encoderscope_tests::decoder;
+
+/// What a conversation came to.
+#[derive(Debug, Default)]
+struct Log {
+    readings: Vec<(Micros, Reading)>,
+    bad: usize,
+    skipped: usize,
+    silent: usize,
+    received: usize,
+    framed: usize,
+}
+
+/// A session and an emulator on one wire, with a virtual clock.
+struct Pair {
+    session: Session,
+    emulator: Emulator,
+    now: Micros,
+    /// Answers are delivered in pieces of so many bytes.
+    piece: usize,
+}
+
+impl Pair {
+    fn new(parameters: &str, shaft: Shaft) -> Self {
+        let decoder = decoder(parameters);
+        let emulator = Emulator::new(*decoder.profile(), shaft).unwrap();
+        Self {
+            session: Session::new(decoder, 0).unwrap(),
+            emulator,
+            now: 0,
+            piece: usize::MAX,
+        }
+    }
+
+    fn run(&mut self, until: Micros) -> Log {
+        let mut log = Log::default();
+        while self.now < until {
+            self.session.handle_timeout(self.now);
+            while let Some(bytes) = self.emulator.poll_output(self.now) {
+                log.received += bytes.len();
+                for piece in bytes.chunks(self.piece) {
+                    self.session.handle_input(self.now, piece);
+                    self.now += 1;
+                }
+            }
+            while let Some(output) = self.session.poll_output() {
+                match output {
+                    Output::Transmit(bytes) => self.emulator.handle_input(self.now, &bytes),
+                    Output::Frame { bytes, sure, .. } => {
+                        log.framed += bytes.len();
+                        let layout = self.session.decoder().layout(bytes[0]);
+                        let reading = layout.and_then(|layout| {
+                            layout.reading(Bits::of_bytes(&bytes)).ok().flatten()
+                        });
+                        match reading.filter(|_| sure) {
+                            Some(reading) => log.readings.push((self.now, reading)),
+                            None => log.bad += 1,
+                        }
+                    }
+                    Output::Skip { bytes, .. } => log.skipped += bytes.len(),
+                    Output::Silent { .. } => log.silent += 1,
+                }
+            }
+            let next = self
+                .emulator
+                .deadline()
+                .unwrap_or(Micros::MAX)
+                .min(self.session.deadline());
+            self.now = next.max(self.now + 1);
+        }
+        log
+    }
+}
+
+const SECOND: Micros = 1_000_000;
+
+#[test]
+fn both_formats_are_read_while_the_shaft_turns() {
+    for parameters in [
+        "format=t485",
+        "format=rs485 command=d",
+        "format=rs485 command=s baud=115200",
+        "format=rs485 turns-bits=0 angle-bits=16 command=1",
+    ] {
+        let shaft = Shaft::turning(3.75, 1.5);
+        let mut pair = Pair::new(parameters, shaft);
+        let log = pair.run(SECOND);
+        assert!(
+            log.readings.len() > 500,
+            "{parameters}: {}",
+            log.readings.len()
+        );
+        assert_eq!(
+            (log.bad, log.skipped, log.silent),
+            (0, 0, 0),
+            "{parameters}"
+        );
+        for (at, reading) in &log.readings {
+            let turned = reading.degrees() / 360.0;
+            let apart = (shaft.at(*at).fract() - turned).abs();
+            assert!(
+                apart.min(1.0 - apart) < 0.04,
+                "{parameters}: {reading:?} at {at}"
+            );
+        }
+        let last = &log.readings.last().unwrap().1;
+        assert_eq!(
+            last.turns,
+            (pair.session.decoder().profile().turns_bits > 0).then_some(5),
+            "{parameters}"
+        );
+    }
+}
+
+#[test]
+fn an_echoing_adapter_is_found_out_and_no_reading_is_wrong() {
+    for parameters in [
+        "format=t485",
+        "format=rs485 command=1",
+        "format=rs485 command=d",
+    ] {
+        let mut pair = Pair::new(parameters, Shaft::turning(0.0, 0.9));
+        pair.emulator.faults.echo = true;
+        let shaft = pair.emulator.shaft;
+        let log = pair.run(SECOND);
+        assert_eq!(pair.session.echo(), Echo::Present, "{parameters}");
+        assert!(
+            log.readings.len() > 500,
+            "{parameters}: {}",
+            log.readings.len()
+        );
+        assert_eq!(log.bad, 0, "{parameters}");
+        assert!(log.readings.iter().all(|(at, reading)| {
+            (shaft.at(*at).fract() - reading.degrees() / 360.0).abs() < 0.04
+        }));
+        assert_eq!(log.received, log.framed + log.skipped, "{parameters}");
+
+        pair.emulator.faults.echo = false;
+        let log = pair.run(3 * SECOND);
+        assert_eq!(
+            pair.session.echo(),
+            Echo::Absent,
+            "{parameters}: the adapter was changed"
+        );
+        assert!(log.readings.len() > 500);
+    }
+}
+
+#[test]
+fn replies_may_arrive_byte_by_byte() {
+    let mut pair = Pair::new("format=t485", Shaft::turning(0.5, 1.0));
+    pair.piece = 1;
+    let log = pair.run(SECOND);
+    assert!(log.readings.len() > 500);
+    assert_eq!((log.bad, log.skipped), (0, 0));
+}
+
+#[test]
+fn noise_is_counted_and_no_reading_is_wrong() {
+    for parameters in ["format=t485", "format=rs485 command=d"] {
+        let shaft = Shaft::turning(0.1, 0.7);
+        let mut pair = Pair::new(parameters, shaft);
+        pair.emulator.faults = Faults {
+            flip: 10,
+            drop: 10,
+            insert: 10,
+            ..Faults::default()
+        };
+        let log = pair.run(60 * SECOND);
+        assert!(
+            log.readings.len() > 300,
+            "{parameters}: {}",
+            log.readings.len()
+        );
+        assert!(
+            log.bad > 10 && log.skipped > 10,
+            "{parameters}: {} {}",
+            log.bad,
+            log.skipped
+        );
+        assert_eq!(log.received, log.framed + log.skipped, "{parameters}");
+        let wrong = log.readings.iter().filter(|(at, reading)| {
+            let apart = (shaft.at(*at).fract() - reading.degrees() / 360.0).abs();
+            apart.min(1.0 - apart) > 0.2
+        });
+        // An eight-bit check lets one broken frame in 256 pass.
+        assert!(
+            wrong.count() * 256 <= 2 * (log.bad + log.readings.len() / 50),
+            "{parameters}"
+        );
+    }
+}
+
+#[test]
+fn silence_is_said_and_reading_goes_on_when_the_encoder_is_back() {
+    let mut pair = Pair::new("format=t485", Shaft::still(0.5));
+    pair.emulator.faults.silent = true;
+    let log = pair.run(SECOND);
+    assert!(log.silent > 5 && log.readings.is_empty());
+    pair.emulator.faults.echo = true;
+    let log = pair.run(2 * SECOND);
+    assert!(log.silent > 5 && log.readings.is_empty());
+    pair.emulator.faults = Faults::default();
+    assert!(pair.run(3 * SECOND).readings.len() > 500);
+}
+
+#[test]
+fn a_late_reply_is_not_taken_for_the_next_one() {
+    let decoder = decoder("format=rs485 command=1 turns-bits=0");
+    let mut session = Session::new(decoder, 0).unwrap();
+    session.handle_timeout(0);
+    assert_eq!(session.poll_output(), Some(Output::Transmit(vec![0x31])));
+    session.handle_timeout(session.deadline());
+    assert_eq!(session.poll_output(), Some(Output::Silent { echo: false }));
+    let late = [0x12, 0x34, 0x56, 0x00];
+    session.handle_input(session.deadline() - 1, &late);
+    assert!(matches!(session.poll_output(), Some(Output::Skip { .. })));
+    assert_eq!(session.poll_output(), None);
+}
+
+#[test]
+fn polling_never_sends_what_changes_the_encoder() {
+    let refused = Session::new(decoder("format=rs485 command=0"), 0).unwrap_err();
+    assert_eq!(refused, Refusal::ChangesEncoder(0x30));
+    assert!(Session::new(decoder("format=biss-c"), 0).is_err());
+    for parameters in ["format=t485", "format=rs485 command=d"] {
+        let mut session = Session::new(decoder(parameters), 0).unwrap();
+        for _ in 0..1000 {
+            session.handle_timeout(session.deadline());
+            session.handle_input(session.deadline() - 1, &[0x30, 0xc2, 0x62, 0xba, 0x1a]);
+            while let Some(output) = session.poll_output() {
+                if let Output::Transmit(bytes) = output {
+                    assert!(matches!(bytes[..], [0x1a | 0x64]));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_emulated_t485_encoder_answers_as_the_manual_says() {
+    let decoder = decoder("format=t485");
+    let mut encoder = Emulator::new(*decoder.profile(), Shaft::still(7.25)).unwrap();
+    let mut ask = |byte: u8| {
+        encoder.handle_input(0, &[byte]);
+        encoder.poll_output(SECOND).unwrap()
+    };
+    assert_eq!(ask(0x02), [0x02, 0x00, 0x00, 0x00, 0x20, 0x22]);
+    assert_eq!(ask(0x8a), [0x8a, 0x00, 0x07, 0x00, 0x00, 0x8d]);
+    assert_eq!(ask(0x1a)[2..9], [0x00, 0x00, 0x20, 0x17, 0x07, 0x00, 0x00]);
+    let unknown = ask(0x55);
+    assert_eq!(
+        unknown[..2],
+        [0x55, 0x40],
+        "an unknown operation is a communication error"
+    );
+    assert_eq!(unknown.iter().fold(0, |sum, byte| sum ^ byte), 0);
+    for _ in 0..9 {
+        ask(t485::Request::ResetAngle.byte());
+    }
+    assert_eq!(ask(0x02)[4], 0x20, "nine resets do nothing");
+    for _ in 0..10 {
+        ask(t485::Request::ResetAngle.byte());
+    }
+    assert_eq!(ask(0x02)[2..5], [0, 0, 0]);
+    assert_eq!(ask(0x8a)[2], 7, "the turns stay");
+}
+
+#[test]
+fn the_emulated_rs485_encoder_sets_its_zero_after_ten_pairs() {
+    let decoder = decoder("format=rs485 command=1");
+    let mut encoder = Emulator::new(*decoder.profile(), Shaft::still(7.25)).unwrap();
+    let mut counts = Vec::new();
+    for now in 0..10 {
+        encoder.handle_input(now, &[rs485::Command::Position.byte()]);
+        assert!(encoder.poll_output(SECOND).is_some());
+        encoder.handle_input(now, &[rs485::Command::Zero.byte()]);
+        counts.push(encoder.poll_output(SECOND).unwrap()[0]);
+    }
+    assert_eq!(counts, [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+    encoder.handle_input(20_000, &[0x31]);
+    assert_eq!(
+        encoder.poll_output(SECOND),
+        None,
+        "it is silent while it stores the zero"
+    );
+    encoder.handle_input(60_000, &[0x31]);
+    assert_eq!(encoder.poll_output(SECOND).unwrap()[..5], [0, 0, 0, 0, 0]);
+}
