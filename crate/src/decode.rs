@@ -194,29 +194,42 @@ impl Decoder {
     ///
     /// The line is too short for a frame.
     pub fn line<'a>(&'a self, bits: Bits<'a>) -> Result<Frame<'a>, Why> {
-        let shapes = biss_c::shapes(&self.profile, bits);
-        let bare = shapes.bare.is_some_and(|bare| {
-            shapes.framed.is_none()
-                || (!self.holds(shapes.framed, bits) && self.holds(Some(bare), bits))
-        });
-        self.line_as(shapes, bits, bare)
+        let shapes = self.shapes(bits);
+        let chosen = self.likeliest(core::iter::once((&shapes, bits)));
+        self.line_as(&shapes, bits, chosen)
+    }
+
+    fn shapes(&self, bits: Bits<'_>) -> Result<biss_c::Shapes, Why> {
+        biss_c::shapes(&self.profile, bits).map_err(|need| Why::Truncated {
+            have: bits.len(),
+            need: need as usize,
+        })
+    }
+
+    /// Which of the shapes holds its CRC in most lines; of equals the first.
+    fn likeliest<'a>(
+        &self,
+        lines: impl Iterator<Item = (&'a Result<biss_c::Shapes, Why>, Bits<'a>)>,
+    ) -> usize {
+        let mut passes = [0usize; 3];
+        for (shapes, bits) in lines {
+            for (count, shape) in passes.iter_mut().zip(shapes.iter().flatten()) {
+                *count += usize::from(shape.is_some_and(|shape| self.shaped(shape).holds(bits)));
+            }
+        }
+        let best = passes.iter().max().copied().unwrap_or(0);
+        passes.iter().position(|count| *count == best).unwrap_or(0)
     }
 
     fn line_as<'a>(
         &'a self,
-        shapes: biss_c::Shapes,
+        shapes: &Result<biss_c::Shapes, Why>,
         bits: Bits<'a>,
-        bare: bool,
+        chosen: usize,
     ) -> Result<Frame<'a>, Why> {
-        let (first, second) = if bare {
-            (shapes.bare, shapes.framed)
-        } else {
-            (shapes.framed, shapes.bare)
-        };
-        let shape = first.or(second).ok_or_else(|| Why::Truncated {
-            have: bits.len(),
-            need: shapes.need as usize,
-        })?;
+        let shapes = shapes.as_ref().map_err(|why| *why)?;
+        let shape = shapes[chosen].or_else(|| shapes.iter().copied().flatten().next());
+        let shape = shape.ok_or(Why::NoFrame)?;
         Ok(Frame {
             start: 0,
             layout: self.shaped(shape),
@@ -231,10 +244,6 @@ impl Decoder {
             Some(layout) if layout.shape == shape => Cow::Borrowed(layout),
             _ => Cow::Owned(Resolved::new(&biss_c::FRAME, shape)),
         }
-    }
-
-    fn holds(&self, shape: Option<Shape>, bits: Bits<'_>) -> bool {
-        shape.is_some_and(|shape| self.shaped(shape).holds(bits))
     }
 
     /// Decodes a whole dump; `sink` gets every stretch of it in order.
@@ -257,18 +266,12 @@ impl Decoder {
         let all: Vec<_> = dump
             .lines
             .iter()
-            .map(|line| biss_c::shapes(&self.profile, line.bits.as_bits()))
+            .map(|line| self.shapes(line.bits.as_bits()))
             .collect();
-        let passes = |shape: fn(&biss_c::Shapes) -> Option<Shape>| {
-            let lines = all.iter().zip(&dump.lines);
-            lines
-                .filter(|(shapes, line)| self.holds(shape(shapes), line.bits.as_bits()))
-                .count()
-        };
-        let bare = passes(|shapes| shapes.bare) > passes(|shapes| shapes.framed);
+        let lines = || dump.lines.iter().map(|line| line.bits.as_bits());
+        let chosen = self.likeliest(all.iter().zip(lines()));
         let mut start = 0;
-        for (shapes, line) in all.iter().zip(&dump.lines) {
-            let bits = line.bits.as_bits();
+        for (shapes, bits) in all.iter().zip(lines()) {
             let bytes = bits.bytes().len() as u64;
             let here = if dump.is_bits() { start } else { start / 8 };
             start += if dump.is_bits() {
@@ -277,7 +280,7 @@ impl Decoder {
                 bits.bytes().len() * 8
             } as u64;
             summary.bytes += bytes;
-            match self.line_as(*shapes, bits, bare) {
+            match self.line_as(shapes, bits, chosen) {
                 Ok(mut frame) => {
                     frame.start = here;
                     summary.frames += 1;

@@ -6,9 +6,9 @@
 //! shaft any phase that passes once passes for ever. The framer therefore weighs phases as
 //! evidence, in bits, over a window of frames:
 //!
-//! - a frame that passes is worth its redundant bits (CRC, fixed and padding bits), but nothing
-//!   when it repeats one already counted, and nothing when its last byte is 0, since then the
-//!   phase before it with the zero in front explains the same bytes;
+//! - a frame that passes is worth its redundant bits (CRC, fixed and padding bits), but little
+//!   when it repeats one already counted, and less than nothing when its last byte is 0, since
+//!   then the phase before it with the zero in front explains the same bytes better;
 //! - an angle that continues the one before speaks for a phase; one that jumps, or status
 //!   bits that change from frame to frame, speak against it;
 //! - the phase held before, the start and the end of the input count for a little.
@@ -36,6 +36,8 @@ const LEAD: i32 = 6;
 const HELD: i32 = 6;
 /// Dumps tend to begin and end with whole frames.
 const EDGE: i32 = 4;
+/// A true checksum is 0 once in 256 frames, that of the phase one byte late always.
+const LATE: i32 = -8;
 /// A frame that fails, and a number that jumps.
 const FAILS: i32 = -4;
 const JUMPS: i32 = -3;
@@ -185,7 +187,9 @@ impl<'d> Framer<'d> {
                     let frame = Bits::of_bytes(bytes);
                     if layout.holds(frame) {
                         self.held = sure;
-                        self.last = Position::of(layout, &layout.values(frame)).or(self.last);
+                        if sure {
+                            self.last = Position::of(layout, &layout.values(frame)).or(self.last);
+                        }
                     }
                     from = end;
                     self.skipped = 0;
@@ -314,7 +318,8 @@ impl<'d> Framer<'d> {
         layout.holds(Bits::of_bytes(frame)).then_some(layout)
     }
 
-    /// Follows a phase for a window of frames.
+    /// Follows a phase for a window of frames, to the first that fails after one that passes:
+    /// what stands behind it may have slipped.
     fn chain<'b>(&self, rest: &'b [u8], start: usize, last: Option<Position>) -> Chain<'b> {
         let mut chain = Chain::new(last);
         let mut at = start;
@@ -345,7 +350,7 @@ impl<'d> Framer<'d> {
             };
             chain.score += FAILS;
             fails += 1;
-            if fails > 2 {
+            if fails > 2 || chain.passes > 0 {
                 break;
             }
             at += layout.len / 8;
@@ -436,7 +441,9 @@ impl<'b> Chain<'b> {
                 self.repeats += 1;
                 self.score += REPEATS;
             }
-        } else if frame.last() != Some(&0) {
+        } else if frame.last() == Some(&0) {
+            self.score += LATE;
+        } else {
             self.score += layout.redundancy as i32;
         }
         self.frames[self.passes] = (at, frame);

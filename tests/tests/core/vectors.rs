@@ -104,7 +104,7 @@ fn request(name: &str, vector: &Value) {
     );
     assert!(values.parity.unwrap().ok(), "{name}");
     assert_eq!(
-        u64::from(values.parity.unwrap().received),
+        values.parity.unwrap().received,
         vector["expected"]["id_parity_even"].as_u64().unwrap(),
         "{name}"
     );
