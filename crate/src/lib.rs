@@ -12,6 +12,7 @@
 //! Every layout fact stands in one table of [`format`], made by `layout!` ([`layout`]). The
 //! crate does no I/O, reads no clock and does not panic on any input.
 #![no_std]
+#![forbid(unsafe_code)]
 
 extern crate alloc;
 

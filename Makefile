@@ -1,0 +1,18 @@
+# Everything that is missing is installed by the scripts; what they may not install they name.
+.PHONY: serve test dist fmt clean
+
+serve: dist
+	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
+	@npx vite preview --logLevel warn
+
+test:
+	@tests/run.sh
+
+dist:
+	@web/build.sh
+
+fmt:
+	@cargo fmt
+
+clean:
+	rm -rf dist web/pkg target node_modules

@@ -1,0 +1,117 @@
+/** Decodes, explains and encodes frames of absolute rotary encoders. */
+
+export type Format = 'biss-c' | 'rs485' | 't485';
+
+/** Parameters of an encoder; omitted ones take the format's default. */
+export interface Profile {
+  format?: Format;
+  /** An order code instead of the rest. */
+  model?: string;
+  angleBits?: number;
+  turnsBits?: number;
+  /** BiSS-C. */
+  statusBits?: number;
+  /** BiSS-C. */
+  ackBits?: number;
+  /** RS485: the command whose replies are read. */
+  command?: '0' | '1' | 'd' | 's' | 't';
+  baud?: number;
+  /** BiSS-C: `left` is an SPI capture, `right` a number. */
+  justify?: 'left' | 'right';
+}
+
+export interface Checked {
+  expected: number;
+  received: number;
+  ok: boolean;
+}
+
+export interface Frame {
+  /** Offset in the input: bytes, or bits for strings of 0 and 1. */
+  start: number;
+  hex: string;
+  /** Every check of the frame holds. */
+  ok: boolean;
+  turns: number | null;
+  /** Counts within one turn. */
+  angle: number | null;
+  degrees: number | null;
+  error: boolean | null;
+  warning: boolean | null;
+  /** The six status bits; T485: the SF byte. */
+  status: number | null;
+  crc: Checked | null;
+  parity?: Checked;
+  /** °C */
+  temperature?: number;
+  /** rev/s */
+  speed?: number;
+  operation?: number;
+  count?: number;
+  enid?: number;
+  alarm?: number;
+  memoryAddress?: number;
+  memoryData?: number;
+  /** What is wrong, in words. */
+  faults?: string[];
+}
+
+export interface Decoded {
+  frames: Frame[];
+  skips: { start: number; hex: string; why: string }[];
+  /** Tokens of the text that could not be read. */
+  unread: string[];
+  summary: { bytes: number; frames: number; bad: number; skipped: number };
+}
+
+export interface Note {
+  name: string;
+  class: 'turns' | 'angle' | 'flags' | 'status' | 'check' | 'framing';
+  /** Where the field stands, most significant part first. */
+  spans: { start: number; len: number }[];
+  doc: string;
+  raw: number;
+  text: string;
+  bits: { at: number; name: string; set: boolean; doc: string }[];
+  fault: string | null;
+}
+
+export interface FormatInfo {
+  format: Format;
+  title: string;
+  /** The parameters that matter to the format. */
+  parameters: string[];
+  profile: Profile;
+}
+
+/** Numbers to encode; omitted ones are 0 or not asserted. */
+export interface Values {
+  turns?: number;
+  angle?: number;
+  error?: boolean;
+  warning?: boolean;
+  status?: number;
+  alarm?: number;
+  enid?: number;
+  speed?: number;
+  temperature?: number;
+  count?: number;
+  operation?: number;
+  memoryAddress?: number;
+  memoryData?: number;
+}
+
+/** All formats with their default profiles. */
+export function formats(): FormatInfo[];
+
+/** Decodes pasted text. Throws only when the profile is wrong. */
+export function decode(profile: Profile, text: string): Decoded;
+
+/** Explains one whole frame, field by field. */
+export function explain(profile: Profile, hexOrBits: string): Note[];
+
+/** The frame that says `values`, as hexadecimal digits. */
+export function encode(profile: Profile, values: Values): string;
+
+/** The profile of an order code; throws with the part that is wrong. */
+export function parseModel(code: string): Profile & { series: string };

@@ -1,0 +1,325 @@
+//! The shell: areas, profile, theme, and the state that they share.
+
+use crate::{connection::Connection, console::Console, decode::Decode};
+use encoderscope::{format::Format, profile::Profile};
+use encoderscope_web::{
+    link::{Fragment, query},
+    message::{PortId, Snapshot, ToEngine},
+    serial,
+};
+use leptos::{ev, prelude::*};
+
+/// What the dial shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// The built-in encoder behind the first view.
+    Preview,
+    /// The built-in encoder, chosen.
+    Demo,
+    /// A port.
+    Port,
+}
+
+/// The areas of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Area {
+    Console,
+    Decode,
+}
+
+impl Area {
+    const ALL: [Self; 2] = [Self::Console, Self::Decode];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Console => "console",
+            Self::Decode => "decode",
+        }
+    }
+
+    const fn title(self) -> &'static str {
+        match self {
+            Self::Console => "Console",
+            Self::Decode => "Decode",
+        }
+    }
+}
+
+/// State that the areas share.
+#[derive(Clone, Copy)]
+pub(crate) struct App {
+    pub(crate) area: RwSignal<Area>,
+    pub(crate) profile: RwSignal<Profile>,
+    /// What is wrong with the link that led here.
+    pub(crate) link_fault: RwSignal<Option<String>>,
+    pub(crate) snapshot: RwSignal<Snapshot>,
+    pub(crate) source: RwSignal<Source>,
+    pub(crate) ports: RwSignal<Vec<PortId>>,
+    pub(crate) port: RwSignal<usize>,
+    /// Why there is no port, in words.
+    pub(crate) notice: RwSignal<Option<String>>,
+    /// Text of the decode area.
+    pub(crate) dump: RwSignal<String>,
+    connection: StoredValue<Connection, LocalStorage>,
+}
+
+impl App {
+    fn new(make_worker: &js_sys::Function) -> Self {
+        let snapshot = RwSignal::new(Snapshot::default());
+        let connection = Connection::new(make_worker, snapshot);
+        Self {
+            area: RwSignal::new(Area::Console),
+            profile: RwSignal::new(Format::T485.default_profile()),
+            link_fault: RwSignal::new(None),
+            snapshot,
+            source: RwSignal::new(Source::Preview),
+            ports: RwSignal::new(Vec::new()),
+            port: RwSignal::new(0),
+            notice: RwSignal::new(None),
+            dump: RwSignal::new(String::new()),
+            connection: StoredValue::new_local(connection),
+        }
+    }
+
+    /// Speaks to the engine.
+    pub(crate) fn send(&self, message: ToEngine) {
+        self.connection
+            .with_value(|connection| connection.send(message));
+    }
+
+    /// Starts the built-in encoder with the present profile.
+    pub(crate) fn demo(&self, source: Source) {
+        self.source.set(source);
+        self.notice.set(None);
+        // BiSS-C is not read over a serial port; its demo is the decoder's.
+        let profile = self.profile.get_untracked();
+        let polled = if profile.format.is_polled() {
+            profile
+        } else {
+            Format::T485.default_profile()
+        };
+        self.send(ToEngine::Demo {
+            profile: query(&polled),
+        });
+    }
+
+    /// Opens the chosen known port, or asks for one when none is known.
+    pub(crate) fn connect(self) {
+        leptos::task::spawn_local(async move {
+            self.refresh_ports().await;
+            let known = self.ports.get_untracked();
+            let port = known
+                .get(self.port.get_untracked())
+                .or(known.first())
+                .copied();
+            match port {
+                Some(port) => self.open(port),
+                None => self.add_port().await,
+            }
+        });
+    }
+
+    /// Asks for a port and opens it.
+    pub(crate) async fn add_port(self) {
+        match serial::ask().await {
+            Ok(port) => {
+                self.refresh_ports().await;
+                self.port.set(port.index as usize);
+                self.open(port);
+            }
+            Err(error) => {
+                let (name, message) = encoderscope_web::browser::error_text(&error);
+                self.notice.set(Some(match name.as_str() {
+                    "NotFoundError" => "No port was chosen.".into(),
+                    "SecurityError" => {
+                        "A policy of this browser blocks serial ports on this page.".into()
+                    }
+                    _ => message,
+                }));
+            }
+        }
+    }
+
+    fn open(self, port: PortId) {
+        self.notice.set(None);
+        self.source.set(Source::Port);
+        self.send(ToEngine::Open {
+            port,
+            profile: query(&self.profile.get_untracked()),
+        });
+    }
+
+    /// Stops reading.
+    pub(crate) fn disconnect(&self) {
+        self.send(ToEngine::Close);
+    }
+
+    async fn refresh_ports(self) {
+        if let Ok(ports) = serial::known().await {
+            self.ports.set(ports);
+        }
+    }
+
+    /// Takes over a new profile; what runs goes on with it.
+    pub(crate) fn change_profile(self, profile: Profile) {
+        if self.profile.get_untracked() == profile {
+            return;
+        }
+        self.profile.set(profile);
+        self.link_fault.set(None);
+        if self.area.get_untracked() != Area::Console {
+            return;
+        }
+        match self.source.get_untracked() {
+            Source::Port if self.snapshot.get_untracked().link.is_open() => self.connect(),
+            Source::Port => {}
+            source => self.demo(source),
+        }
+    }
+
+    fn follow_link(self, text: &str) {
+        let fragment = Fragment::parse(text);
+        let area = Area::ALL
+            .into_iter()
+            .find(|area| area.name() == fragment.area);
+        self.area.set(area.unwrap_or(Area::Console));
+        match fragment.profile() {
+            Some(Ok(profile)) => self.change_profile(profile),
+            Some(Err(error)) => self
+                .link_fault
+                .set(Some(format!("The link is not right: {error}."))),
+            None => {}
+        }
+        if let Some(dump) = fragment.value("dump") {
+            self.dump.set(dump.into());
+        }
+    }
+
+    /// The fragment that leads back here.
+    pub(crate) fn fragment(&self) -> String {
+        format!(
+            "#/{}?{}",
+            self.area.get().name(),
+            query(&self.profile.get())
+        )
+    }
+}
+
+/// The whole page.
+pub(crate) fn app(make_worker: &js_sys::Function) -> impl IntoView + use<> {
+    let app = App::new(make_worker);
+    provide_context(app);
+    app.follow_link(&location_hash());
+    app.demo(Source::Preview);
+
+    let hash = window_event_listener(ev::hashchange, move |_| app.follow_link(&location_hash()));
+    let hide = window_event_listener_untyped("pagehide", move |_| app.disconnect());
+    on_cleanup(move || {
+        hash.remove();
+        hide.remove();
+    });
+    Effect::new(move || {
+        let fragment = app.fragment();
+        if let Ok(history) = window().history() {
+            // Where it fails the link in the address bar is only out of date.
+            let _ =
+                history.replace_state_with_url(&wasm_bindgen::JsValue::NULL, "", Some(&fragment));
+        }
+    });
+    leptos::task::spawn_local(app.refresh_ports());
+
+    view! {
+        <header class="bar">
+            <a class="brand" href="#/console">
+                <svg viewBox="0 0 24 24" aria-hidden="true">
+                    <circle cx="12" cy="12" r="10" />
+                    <line x1="12" y1="12" x2="17" y2="7" />
+                    <circle class="dot" cx="12" cy="12" r="2" />
+                </svg>
+                "Encoderscope"
+            </a>
+            <nav aria-label="Areas">
+                {Area::ALL
+                    .map(|area| {
+                        view! {
+                            <a
+                                href=format!("#/{}", area.name())
+                                aria-current=move || (app.area.get() == area).then_some("page")
+                            >
+                                {area.title()}
+                            </a>
+                        }
+                    })
+                    .into_view()}
+            </nav>
+            <span class="pill" data-testid="profile" data-value=move || query(&app.profile.get())>
+                {move || summary(&app.profile.get())}
+            </span>
+            <ThemeSwitch />
+        </header>
+        <main>
+            {move || {
+                app.link_fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })
+            }}
+            {move || match app.area.get() {
+                Area::Console => view! { <Console /> }.into_any(),
+                Area::Decode => view! { <Decode /> }.into_any(),
+            }}
+        </main>
+    }
+}
+
+fn location_hash() -> String {
+    window().location().hash().unwrap_or_default()
+}
+
+fn summary(profile: &Profile) -> impl IntoView + use<> {
+    let mut text = format!("{} bit", profile.angle_bits);
+    if profile.turns_bits > 0 {
+        text += &format!(" + {} turns", profile.turns_bits);
+    }
+    if profile.format.is_polled() {
+        text += &format!(" · {} Mbaud", f64::from(profile.baud) / 1e6);
+    }
+    view! { <b>{profile.format.title()}</b> " " {text} }
+}
+
+#[component]
+fn ThemeSwitch() -> impl IntoView {
+    let root = document().document_element();
+    let storage = window().local_storage().ok().flatten();
+    let stored = storage
+        .as_ref()
+        .and_then(|storage| storage.get_item("theme").ok().flatten());
+    let prefers = window()
+        .match_media("(prefers-color-scheme: dark)")
+        .ok()
+        .flatten()
+        .is_some_and(|query| query.matches());
+    let dark = RwSignal::new(stored.map_or(prefers, |stored| stored == "dark"));
+    Effect::new(move || {
+        if let Some(root) = &root {
+            // Setting an attribute by a constant name cannot fail.
+            let _ = root.set_attribute("data-theme", if dark.get() { "dark" } else { "light" });
+        }
+    });
+    let switch = move |_| {
+        dark.update(|dark| *dark = !*dark);
+        if let Ok(Some(storage)) = window().local_storage() {
+            // A browser that keeps nothing starts with the system's theme next time.
+            let _ = storage.set_item(
+                "theme",
+                if dark.get_untracked() {
+                    "dark"
+                } else {
+                    "light"
+                },
+            );
+        }
+    };
+    view! {
+        <button class="theme" on:click=switch aria-label="Light or dark" title="Light or dark">
+            "◐"
+        </button>
+    }
+}

@@ -1,0 +1,24 @@
+//! The page: a Leptos front end over the core and the engine.
+
+#![allow(
+    unreachable_pub,
+    reason = "the component macro writes public property structs"
+)]
+
+mod app;
+mod connection;
+mod console;
+mod decode;
+mod dial;
+mod frame_view;
+mod profile_editor;
+
+use wasm_bindgen::prelude::*;
+
+fn main() {}
+
+/// Mounts the page; `make_worker` makes the dedicated worker that runs the engine.
+#[wasm_bindgen]
+pub fn start(make_worker: js_sys::Function) {
+    leptos::mount::mount_to_body(move || app::app(&make_worker));
+}

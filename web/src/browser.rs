@@ -1,0 +1,77 @@
+//! Clock, timer and errors, the same in a worker and on the page.
+
+use encoderscope::session::Micros;
+use js_sys::{Function, Reflect};
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(js_namespace = performance, js_name = now)]
+    fn performance_now() -> f64;
+    #[wasm_bindgen(js_name = setTimeout)]
+    fn set_timeout(handler: &Function, milliseconds: f64) -> f64;
+    #[wasm_bindgen(js_name = clearTimeout)]
+    fn clear_timeout(id: f64);
+}
+
+/// Microseconds since the worker or page was made.
+#[must_use]
+pub fn now() -> Micros {
+    (performance_now() * 1000.0) as Micros
+}
+
+/// A timer that can be set again and again, with one callback.
+#[derive(Debug)]
+pub struct Timer {
+    callback: Closure<dyn FnMut()>,
+    set: Option<(f64, Micros)>,
+}
+
+impl Timer {
+    /// A timer that calls `callback`.
+    pub fn new(callback: impl FnMut() + 'static) -> Self {
+        Self {
+            callback: Closure::new(callback),
+            set: None,
+        }
+    }
+
+    /// Makes sure that the callback is called by `at`; it may be called earlier.
+    pub fn wake_by(&mut self, at: Micros) {
+        if let Some((id, earlier)) = self.set {
+            if earlier <= at {
+                return;
+            }
+            clear_timeout(id);
+        }
+        let wait = at.saturating_sub(now()) as f64 / 1000.0;
+        let id = set_timeout(self.callback.as_ref().unchecked_ref(), wait.ceil());
+        self.set = Some((id, at));
+    }
+
+    /// The callback has been called.
+    pub fn fired(&mut self) {
+        self.set = None;
+    }
+}
+
+impl Drop for Timer {
+    fn drop(&mut self) {
+        if let Some((id, _)) = self.set {
+            clear_timeout(id);
+        }
+    }
+}
+
+/// A property of an object; undefined where there is none.
+#[must_use]
+pub fn property(object: &JsValue, name: &str) -> JsValue {
+    Reflect::get(object, &name.into()).unwrap_or_default()
+}
+
+/// The name and the message of a thrown value.
+#[must_use]
+pub fn error_text(error: &JsValue) -> (String, String) {
+    let text = |name| property(error, name).as_string().unwrap_or_default();
+    (text("name"), text("message"))
+}

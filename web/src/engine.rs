@@ -1,0 +1,412 @@
+//! The engine: drives a session over a port or against the built-in encoder, and keeps what
+//! the page shows. It runs in a dedicated worker, or on the page where it must.
+
+use crate::{
+    browser::{Timer, error_text, now},
+    link,
+    message::{FromEngine, Link, PortId, Snapshot, ToEngine},
+    serial::{Port, Read, Reader},
+    tally::Tally,
+};
+use encoderscope::{
+    decode::Decoder,
+    emulator::{Emulator, Shaft},
+    session::{Micros, Output, Session},
+};
+use std::{cell::RefCell, rc::Rc};
+
+/// The built-in encoder is asked a thousand times a second.
+const DEMO_INTERVAL: Micros = 1_000;
+/// Requests without a reply after which the link is called silent.
+const SILENT_AFTER: u32 = 3;
+/// Frames with a fault in a row after which the link is called failing.
+const FAILING_AFTER: u32 = 10;
+
+/// The engine; clones share one state.
+#[derive(Clone)]
+pub struct Engine {
+    state: Rc<RefCell<State>>,
+}
+
+struct State {
+    post: Box<dyn Fn(FromEngine)>,
+    timer: Option<Timer>,
+    link: Link,
+    run: Option<Run>,
+    tally: Tally,
+    /// The page has drawn and waits for a snapshot.
+    wanted: bool,
+    /// Counts openings, so that what belongs to an earlier one can be told.
+    generation: u32,
+}
+
+/// An open link.
+struct Run {
+    session: Session,
+    wire: Wire,
+    silent: u32,
+    failing: u32,
+}
+
+/// How reading goes on.
+enum Next {
+    /// With the same reader.
+    Read,
+    /// With a new reader: a non-fatal error replaces the stream.
+    Reader,
+    /// Not at all.
+    Stop,
+}
+
+enum Wire {
+    Port { port: Port, reader: Option<Reader> },
+    Demo(Box<Emulator>),
+}
+
+impl std::fmt::Debug for Engine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Engine").finish_non_exhaustive()
+    }
+}
+
+impl Engine {
+    /// An engine that answers through `post`.
+    pub fn new(post: impl Fn(FromEngine) + 'static) -> Self {
+        let engine = Self {
+            state: Rc::new(RefCell::new(State {
+                post: Box::new(post),
+                timer: None,
+                link: Link::Closed,
+                run: None,
+                tally: Tally::new(now()),
+                wanted: true,
+                generation: 0,
+            })),
+        };
+        let weak = Rc::downgrade(&engine.state);
+        let timer = Timer::new(move || {
+            if let Some(state) = weak.upgrade() {
+                let mut state = state.borrow_mut();
+                if let Some(timer) = &mut state.timer {
+                    timer.fired();
+                }
+                state.pump();
+            }
+        });
+        engine.state.borrow_mut().timer = Some(timer);
+        engine
+    }
+
+    /// Does what the page asks.
+    pub fn handle(&self, message: ToEngine) {
+        match message {
+            ToEngine::Open { port, profile } => {
+                let engine = self.clone();
+                wasm_bindgen_futures::spawn_local(async move {
+                    engine.open(port, &profile).await;
+                });
+            }
+            ToEngine::Demo { profile } => {
+                let engine = self.clone();
+                wasm_bindgen_futures::spawn_local(async move {
+                    engine.demo(&profile).await;
+                });
+            }
+            ToEngine::Close => {
+                let engine = self.clone();
+                wasm_bindgen_futures::spawn_local(async move {
+                    engine.close().await;
+                    engine.set_link(Link::Closed);
+                });
+            }
+            ToEngine::Next => {
+                let mut state = self.state.borrow_mut();
+                state.wanted = true;
+                state.pump();
+            }
+        }
+    }
+
+    fn set_link(&self, link: Link) {
+        let mut state = self.state.borrow_mut();
+        state.link = link;
+        state.tally.touch();
+        state.pump();
+    }
+
+    /// Closes what is open; returns the generation of what comes next.
+    async fn close(&self) -> u32 {
+        let (run, generation) = {
+            let mut state = self.state.borrow_mut();
+            state.generation += 1;
+            (state.run.take(), state.generation)
+        };
+        if let Some(Run {
+            wire: Wire::Port { port, reader },
+            ..
+        }) = run
+        {
+            if let Some(reader) = reader {
+                reader.cancel().await;
+                reader.release();
+            }
+            port.close().await;
+        }
+        generation
+    }
+
+    fn session(profile: &str, interval: Micros) -> Result<(Session, Decoder), String> {
+        let profile = link::profile(profile).map_err(|error| error.to_string())?;
+        let decoder = Decoder::new(profile).map_err(|error| error.to_string())?;
+        let session = Session::new(decoder.clone(), interval).map_err(|error| error.to_string())?;
+        Ok((session, decoder))
+    }
+
+    async fn demo(&self, profile: &str) {
+        let generation = self.close().await;
+        if self.state.borrow().generation != generation {
+            return;
+        }
+        let made = Self::session(profile, DEMO_INTERVAL).and_then(|(session, decoder)| {
+            let shaft = Shaft {
+                start: 4.85,
+                speed: 0.08,
+                sway: 0.35,
+                period: 11.0,
+            };
+            let emulator =
+                Emulator::new(*decoder.profile(), shaft).map_err(|error| error.to_string())?;
+            Ok((session, decoder, emulator))
+        });
+        match made {
+            Ok((session, decoder, emulator)) => {
+                let wire = Wire::Demo(Box::new(emulator));
+                self.start(session, decoder, wire);
+            }
+            Err(reason) => self.set_link(Link::Refused { reason }),
+        }
+    }
+
+    fn start(&self, session: Session, decoder: Decoder, wire: Wire) {
+        let mut state = self.state.borrow_mut();
+        state.tally = Tally::new(now());
+        state.tally.start(decoder, matches!(wire, Wire::Demo(_)));
+        state.run = Some(Run {
+            session,
+            wire,
+            silent: 0,
+            failing: 0,
+        });
+        state.link = Link::Waiting;
+        state.pump();
+    }
+
+    async fn open(&self, port: PortId, profile: &str) {
+        let generation = self.close().await;
+        let (session, decoder) = match Self::session(profile, 0) {
+            Ok(made) => made,
+            Err(reason) => return self.set_link(Link::Refused { reason }),
+        };
+        self.set_link(Link::Opening);
+        let opened = Port::open(port, decoder.profile().baud).await;
+        if self.state.borrow().generation != generation {
+            if let Ok(port) = opened {
+                port.close().await;
+            }
+            return;
+        }
+        match opened {
+            Ok(port) => {
+                self.start(session, decoder, Wire::Port { port, reader: None });
+                self.read(generation).await;
+            }
+            Err(error) => {
+                let (name, message) = error_text(&error);
+                let reason = if name == "InvalidStateError" {
+                    "the port is already open in another tab or worker of this page".into()
+                } else {
+                    message
+                };
+                self.set_link(Link::Refused { reason });
+            }
+        }
+    }
+
+    /// Reads the port until it is closed or lost.
+    async fn read(&self, generation: u32) {
+        while let Some(reader) = self.next_reader(generation) {
+            loop {
+                let read = reader.read().await;
+                match self.take(generation, read) {
+                    Next::Read => {}
+                    Next::Reader => break,
+                    Next::Stop => return,
+                }
+            }
+            reader.release();
+        }
+        self.lose(generation).await;
+    }
+
+    /// A reader of the port; the one before it has been let go.
+    fn next_reader(&self, generation: u32) -> Option<Reader> {
+        let mut state = self.state.borrow_mut();
+        if state.generation != generation {
+            return None;
+        }
+        match &mut state.run {
+            Some(Run {
+                wire: Wire::Port { port, reader },
+                ..
+            }) => {
+                *reader = port.reader();
+                reader.clone()
+            }
+            _ => None,
+        }
+    }
+
+    fn take(&self, generation: u32, read: Read) -> Next {
+        let mut state = self.state.borrow_mut();
+        if state.generation != generation {
+            return Next::Stop;
+        }
+        match read {
+            Read::Bytes(bytes) => {
+                let now = now();
+                state.tally.received(bytes.len());
+                if let Some(run) = &mut state.run {
+                    run.session.handle_input(now, &bytes);
+                }
+                state.pump();
+                Next::Read
+            }
+            Read::LineError => {
+                state.tally.line_error();
+                Next::Reader
+            }
+            // A lost port has no further stream, so asking for a reader tells.
+            Read::Lost => Next::Reader,
+            Read::Closed => Next::Stop,
+        }
+    }
+
+    /// The port went away.
+    async fn lose(&self, generation: u32) {
+        let run = {
+            let mut state = self.state.borrow_mut();
+            if state.generation != generation {
+                return;
+            }
+            state.generation += 1;
+            state.run.take()
+        };
+        if let Some(Run {
+            wire: Wire::Port { port, .. },
+            ..
+        }) = run
+        {
+            port.close().await;
+        }
+        self.set_link(Link::Lost);
+    }
+}
+
+impl State {
+    /// Lets the session speak, answers for the built-in encoder, and posts a snapshot.
+    fn pump(&mut self) {
+        let now = now();
+        let mut wake = None;
+        if let Some(run) = &mut self.run {
+            let link = run.advance(now, &mut self.tally);
+            wake = Some(match &run.wire {
+                Wire::Port { .. } => run.session.deadline(),
+                Wire::Demo(emulator) => emulator
+                    .deadline()
+                    .unwrap_or(Micros::MAX)
+                    .min(run.session.deadline()),
+            });
+            if let Some(link) = link {
+                self.link = link;
+            }
+        }
+        if let (Some(at), Some(timer)) = (wake, &mut self.timer) {
+            timer.wake_by(at);
+        }
+        if self.wanted && self.tally.changed() {
+            self.wanted = false;
+            let snapshot = Snapshot {
+                link: self.link.clone(),
+                ..self.tally.snapshot(now)
+            };
+            (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
+        }
+    }
+}
+
+impl Run {
+    /// Runs up to `now`; returns how the link is when that has become clear.
+    fn advance(&mut self, now: Micros, tally: &mut Tally) -> Option<Link> {
+        let mut link = None;
+        // The built-in encoder lives in virtual time, which catches up here; after a pause of
+        // the tab it does not replay more than a second.
+        let oldest = now.saturating_sub(1_000_000);
+        loop {
+            let mut idle = true;
+            let at = match &mut self.wire {
+                Wire::Port { .. } => now,
+                Wire::Demo(emulator) => {
+                    let next = emulator
+                        .deadline()
+                        .unwrap_or(Micros::MAX)
+                        .min(self.session.deadline());
+                    let at = next.clamp(oldest, now);
+                    if let Some(bytes) = emulator.poll_output(at) {
+                        tally.received(bytes.len());
+                        self.session.handle_input(at, &bytes);
+                        idle = false;
+                    }
+                    at
+                }
+            };
+            if self.session.deadline() <= at {
+                self.session.handle_timeout(at);
+                idle = false;
+            }
+            while let Some(output) = self.session.poll_output() {
+                idle = false;
+                if let Output::Transmit(bytes) = &output {
+                    match &mut self.wire {
+                        Wire::Port { port, .. } => port.write(bytes),
+                        Wire::Demo(emulator) => emulator.handle_input(at, bytes),
+                    }
+                }
+                link = self.judge(&output, tally.take(at, &output)).or(link);
+            }
+            tally.echo(self.session.echo());
+            if idle {
+                return link;
+            }
+        }
+    }
+
+    fn judge(&mut self, output: &Output, good: bool) -> Option<Link> {
+        match output {
+            Output::Frame { .. } if good => {
+                self.silent = 0;
+                self.failing = 0;
+                Some(Link::Reading)
+            }
+            Output::Frame { .. } => {
+                self.silent = 0;
+                self.failing += 1;
+                (self.failing >= FAILING_AFTER).then_some(Link::Failing)
+            }
+            Output::Silent { echo } => {
+                self.silent += 1;
+                (self.silent >= SILENT_AFTER).then_some(Link::Silent { echo: *echo })
+            }
+            Output::Skip { .. } | Output::Transmit(_) => None,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! What the page and the engine say to each other.
+//!
+//! The engine lives in a dedicated worker, or on the page where the browser has no serial in
+//! workers; either way these are the messages.
+
+use serde::{Deserialize, Serialize};
+
+/// From the page to the engine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ToEngine {
+    /// Open a port that the page has permission for and poll an encoder on it.
+    Open {
+        /// Which port.
+        port: PortId,
+        /// The profile, as the parameters of a link.
+        profile: String,
+    },
+    /// Poll the built-in encoder.
+    Demo {
+        /// The profile, as the parameters of a link.
+        profile: String,
+    },
+    /// Stop and close the port.
+    Close,
+    /// The page has drawn the last snapshot and wants the next.
+    Next,
+}
+
+/// From the engine to the page.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum FromEngine {
+    /// The engine runs.
+    Hello {
+        /// Whether it can reach serial ports itself.
+        serial: bool,
+    },
+    /// The state of the link and what it has read.
+    Snapshot(Box<Snapshot>),
+}
+
+/// A port among those that the page has permission for.
+///
+/// Port objects do not cross to a worker; the order of the list and the USB identity do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PortId {
+    /// Place in the list of known ports.
+    pub index: u32,
+    /// USB vendor, where the port is on USB.
+    pub vendor: Option<u16>,
+    /// USB product.
+    pub product: Option<u16>,
+}
+
+/// How the link is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Link {
+    /// Nothing is open.
+    #[default]
+    Closed,
+    /// The port is being opened.
+    Opening,
+    /// Requests go out, nothing good has come back yet.
+    Waiting,
+    /// Good frames come in.
+    Reading,
+    /// Nothing comes back.
+    Silent {
+        /// Nothing but the echo of the requests.
+        echo: bool,
+    },
+    /// Bytes come back, but no check holds.
+    Failing,
+    /// The port could not be opened.
+    Refused {
+        /// Why, in the browser's words.
+        reason: String,
+    },
+    /// The port went away.
+    Lost,
+}
+
+impl Link {
+    /// One word for each state.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Closed => "closed",
+            Self::Opening => "opening",
+            Self::Waiting => "waiting",
+            Self::Reading => "reading",
+            Self::Silent { echo: false } => "silent",
+            Self::Silent { echo: true } => "echo-only",
+            Self::Failing => "failing",
+            Self::Refused { .. } => "refused",
+            Self::Lost => "lost",
+        }
+    }
+
+    /// Whether a port is open or being opened.
+    #[must_use]
+    pub const fn is_open(&self) -> bool {
+        !matches!(self, Self::Closed | Self::Refused { .. } | Self::Lost)
+    }
+}
+
+/// What the page shows of the link.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// How the link is.
+    pub link: Link,
+    /// Whether the built-in encoder answers.
+    pub demo: bool,
+    /// The last good reading.
+    pub reading: Option<Shown>,
+    /// Status bits of the last good frame.
+    pub lamps: Vec<Lamp>,
+    /// Counts since the link was opened.
+    pub counts: Counts,
+    /// Good frames a second.
+    pub rate: f64,
+    /// Median time from request to reply, milliseconds.
+    pub latency: Option<f64>,
+    /// The time that 99 of 100 replies keep, milliseconds.
+    pub latency_p99: Option<f64>,
+    /// Whether the adapter returns what is sent, once known.
+    pub echo: Option<bool>,
+    /// The last frames, newest first.
+    pub log: Vec<Entry>,
+}
+
+/// A good reading.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Shown {
+    /// Counts within one turn.
+    pub angle: f64,
+    /// Bits per turn.
+    pub angle_bits: u32,
+    /// Degrees.
+    pub degrees: f64,
+    /// Whole turns.
+    pub turns: Option<f64>,
+    /// The encoder says that the position is not valid.
+    pub error: bool,
+    /// The encoder warns.
+    pub warning: bool,
+    /// Revolutions per second.
+    pub speed: Option<f64>,
+    /// Degrees Celsius.
+    pub temperature: Option<f64>,
+}
+
+/// A status bit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Lamp {
+    /// Name.
+    pub name: String,
+    /// What it means and what to do.
+    pub doc: String,
+    /// Set in the last good frame.
+    pub now: bool,
+    /// In how many good frames it was set.
+    pub seen: f64,
+}
+
+/// Counts since the link was opened; bytes in = bytes in frames + skipped + not yet judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Good frames.
+    pub good: f64,
+    /// Frames with a fault.
+    pub bad: f64,
+    /// Bytes received.
+    pub bytes: f64,
+    /// Bytes in frames, good and bad.
+    pub framed: f64,
+    /// Bytes in no frame, echoes included.
+    pub skipped: f64,
+    /// Requests without a reply.
+    pub silent: f64,
+    /// Break, framing, parity and overrun errors of the port.
+    pub line: f64,
+}
+
+/// A frame or a skip in the log.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Seconds since the link was opened.
+    pub time: f64,
+    /// The bytes, each with the class of its field.
+    pub bytes: Vec<(u8, String)>,
+    /// Whether it is a frame whose checks hold.
+    pub ok: bool,
+    /// What is wrong, or why it is no frame.
+    pub text: String,
+}

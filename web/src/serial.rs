@@ -1,0 +1,228 @@
+//! Web Serial: the only module that touches it.
+
+use crate::{
+    browser::{error_text, property},
+    message::PortId,
+};
+use js_sys::{Array, Uint8Array};
+use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen_futures::JsFuture;
+use web_sys::{
+    ReadableStream, ReadableStreamDefaultReader, Serial, SerialOptions, SerialPort, WritableStream,
+    WritableStreamDefaultWriter,
+};
+
+/// At 2.5 Mbaud 64 KiB last a quarter of a second.
+const BUFFER: u32 = 65_536;
+
+/// Why serial ports cannot be reached from here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Absent {
+    /// The page came over plain http.
+    Insecure,
+    /// The browser has no Web Serial.
+    NoApi,
+}
+
+fn serial() -> Option<Serial> {
+    let serial = property(&property(&js_sys::global(), "navigator"), "serial");
+    (!serial.is_undefined() && !serial.is_null()).then(|| serial.unchecked_into())
+}
+
+/// Whether serial ports can be reached from this worker or page.
+///
+/// # Errors
+///
+/// Says what is missing.
+pub fn available() -> Result<(), Absent> {
+    let secure = property(&js_sys::global(), "isSecureContext").is_truthy();
+    match serial() {
+        _ if !secure => Err(Absent::Insecure),
+        None => Err(Absent::NoApi),
+        Some(_) => Ok(()),
+    }
+}
+
+fn identity(index: usize, port: &SerialPort) -> PortId {
+    let info = port.get_info();
+    let number = |name| property(&info, name).as_f64().map(|value| value as u16);
+    PortId {
+        index: index as u32,
+        vendor: number("usbVendorId"),
+        product: number("usbProductId"),
+    }
+}
+
+async fn ports() -> Result<Vec<SerialPort>, JsValue> {
+    let serial = serial().ok_or_else(|| JsValue::from_str("no Web Serial"))?;
+    let list: Array = JsFuture::from(serial.get_ports()).await?.unchecked_into();
+    Ok(list.iter().map(JsCast::unchecked_into).collect())
+}
+
+/// The ports that the user or a policy has given permission for.
+///
+/// # Errors
+///
+/// The browser refuses to list them.
+pub async fn known() -> Result<Vec<PortId>, JsValue> {
+    let ports = ports().await?;
+    Ok(ports
+        .iter()
+        .enumerate()
+        .map(|(index, port)| identity(index, port))
+        .collect())
+}
+
+/// Asks the user for a port; must be called from a click, on the page.
+///
+/// # Errors
+///
+/// `NotFoundError` where the user chose none.
+pub async fn ask() -> Result<PortId, JsValue> {
+    let serial = serial().ok_or_else(|| JsValue::from_str("no Web Serial"))?;
+    let chosen: SerialPort = JsFuture::from(serial.request_port())
+        .await?
+        .unchecked_into();
+    let ports = ports().await?;
+    let index = ports
+        .iter()
+        .position(|port| js_sys::Object::is(port, &chosen))
+        .unwrap_or(0);
+    Ok(identity(index, &chosen))
+}
+
+/// A name for a port.
+#[must_use]
+pub fn name(port: PortId) -> String {
+    let (Some(vendor), Some(product)) = (port.vendor, port.product) else {
+        return format!("Serial port {}", port.index + 1);
+    };
+    let known = ADAPTERS
+        .iter()
+        .find(|adapter| (adapter.0, adapter.1) == (vendor, product));
+    known.map_or_else(
+        || format!("USB {vendor:04x}:{product:04x}"),
+        |adapter| adapter.2.into(),
+    )
+}
+
+/// USB identities of common adapter chips (the makers' defaults).
+const ADAPTERS: &[(u16, u16, &str)] = &[
+    (0x0403, 0x6001, "FT232R"),
+    (0x0403, 0x6010, "FT2232H"),
+    (0x0403, 0x6011, "FT4232H"),
+    (0x0403, 0x6014, "FT232H"),
+    (0x0403, 0x6015, "FT230X"),
+    (0x067b, 0x2303, "PL2303"),
+    (0x10c4, 0xea60, "CP210x"),
+    (0x1a86, 0x55d3, "CH343"),
+    (0x1a86, 0x7523, "CH340"),
+];
+
+/// An open port.
+#[derive(Clone, Debug)]
+pub struct Port {
+    port: SerialPort,
+    writer: WritableStreamDefaultWriter,
+}
+
+/// What reading a port came to.
+#[derive(Debug)]
+pub enum Read {
+    /// Bytes.
+    Bytes(Vec<u8>),
+    /// A break, framing, parity or overrun error; a new reader goes on.
+    LineError,
+    /// The port was closed from here.
+    Closed,
+    /// The port went away.
+    Lost,
+}
+
+impl Port {
+    /// Opens a port at a baud rate, 8N1.
+    ///
+    /// # Errors
+    ///
+    /// The port is not there any more, is busy, or the browser may not open it.
+    pub async fn open(id: PortId, baud: u32) -> Result<Self, JsValue> {
+        let ports = ports().await?;
+        let alike = |(index, port): &(usize, &SerialPort)| {
+            let other = identity(*index, port);
+            (other.vendor, other.product) == (id.vendor, id.product)
+        };
+        let listed = ports.iter().enumerate().filter(alike);
+        let same = listed
+            .clone()
+            .find(|(index, _)| *index == id.index as usize);
+        let (_, port) = same
+            .or_else(|| listed.clone().next())
+            .ok_or_else(|| JsValue::from(js_sys::Error::new("the port is not connected")))?;
+        let options = SerialOptions::new(baud);
+        options.set_buffer_size(BUFFER);
+        JsFuture::from(port.open(&options)).await?;
+        let writable: WritableStream = port.writable();
+        let writer = writable.get_writer()?;
+        Ok(Self {
+            port: port.clone(),
+            writer,
+        })
+    }
+
+    /// Sends bytes. That they were taken proves nothing; only a reply does.
+    pub fn write(&self, bytes: &[u8]) {
+        let sent = self
+            .writer
+            .write_with_chunk(&Uint8Array::from(bytes).into());
+        wasm_bindgen_futures::spawn_local(async move {
+            // A failed write shows as silence or as a lost port on the reading side.
+            let _ = JsFuture::from(sent).await;
+        });
+    }
+
+    /// A reader of the port; there can be one at a time.
+    #[must_use]
+    pub fn reader(&self) -> Option<Reader> {
+        let readable = property(&self.port, "readable");
+        let stream: ReadableStream = readable.dyn_into().ok()?;
+        let reader = stream.get_reader().dyn_into().ok()?;
+        Some(Reader { reader })
+    }
+
+    /// Closes the port, after its reader has been let go.
+    pub async fn close(&self) {
+        self.writer.release_lock();
+        let _ = JsFuture::from(self.port.close()).await;
+    }
+}
+
+/// Reads an open port.
+#[derive(Clone, Debug)]
+pub struct Reader {
+    reader: ReadableStreamDefaultReader,
+}
+
+impl Reader {
+    /// The next bytes.
+    pub async fn read(&self) -> Read {
+        match JsFuture::from(self.reader.read()).await {
+            Ok(result) if property(&result, "done").is_truthy() => Read::Closed,
+            Ok(result) => {
+                let bytes: Uint8Array = property(&result, "value").unchecked_into();
+                Read::Bytes(bytes.to_vec())
+            }
+            Err(error) if error_text(&error).0 == "NetworkError" => Read::Lost,
+            Err(_) => Read::LineError,
+        }
+    }
+
+    /// Ends a pending read.
+    pub async fn cancel(&self) {
+        let _ = JsFuture::from(self.reader.cancel()).await;
+    }
+
+    /// Lets the stream go, so that another reader or a close can have it.
+    pub fn release(&self) {
+        self.reader.release_lock();
+    }
+}

@@ -1,0 +1,283 @@
+//! What the engine keeps of a link: counts, rates, the last reading and the last frames.
+
+use crate::message::{Counts, Entry, Lamp, Shown, Snapshot};
+use encoderscope::{
+    bits,
+    decode::{Decoder, Frame},
+    reading::degrees,
+    session::{Echo, Micros, Output},
+};
+use std::collections::VecDeque;
+
+/// Entries of the log that a snapshot carries.
+const LOG: usize = 12;
+/// Replies over which latencies are sorted.
+const LATENCIES: usize = 512;
+/// The rate is taken over this time.
+const RATE_OVER: Micros = 1_000_000;
+
+/// A frame or skip as it came; it is explained only when a snapshot is made.
+struct Seen {
+    at: Micros,
+    bytes: Vec<u8>,
+    frame: bool,
+    sure: bool,
+    text: String,
+}
+
+/// What is kept of a link.
+pub struct Tally {
+    decoder: Option<Decoder>,
+    demo: bool,
+    opened: Micros,
+    changed: bool,
+    counts: Counts,
+    echo: Echo,
+    last_good: Option<Vec<u8>>,
+    /// One counter for each named bit of the reply, in the order of the explanation.
+    seen_bits: Vec<f64>,
+    latencies: VecDeque<Micros>,
+    /// Times of good frames within the last second.
+    good_times: VecDeque<Micros>,
+    log: VecDeque<Seen>,
+}
+
+impl std::fmt::Debug for Tally {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Tally")
+            .field("counts", &self.counts)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Tally {
+    /// Nothing yet.
+    #[must_use]
+    pub fn new(now: Micros) -> Self {
+        Self {
+            decoder: None,
+            demo: false,
+            opened: now,
+            changed: true,
+            counts: Counts::default(),
+            echo: Echo::Unknown,
+            last_good: None,
+            seen_bits: Vec::new(),
+            latencies: VecDeque::new(),
+            good_times: VecDeque::new(),
+            log: VecDeque::new(),
+        }
+    }
+
+    /// A link is open.
+    pub fn start(&mut self, decoder: Decoder, demo: bool) {
+        self.decoder = Some(decoder);
+        self.demo = demo;
+        self.changed = true;
+    }
+
+    /// Something else than the tally has changed.
+    pub const fn touch(&mut self) {
+        self.changed = true;
+    }
+
+    /// Whether there is anything new since the last snapshot.
+    #[must_use]
+    pub const fn changed(&self) -> bool {
+        self.changed
+    }
+
+    /// Bytes have come in.
+    pub fn received(&mut self, count: usize) {
+        self.counts.bytes += count as f64;
+    }
+
+    /// The port reported a break, framing, parity or overrun error.
+    pub fn line_error(&mut self) {
+        self.counts.line += 1.0;
+        self.changed = true;
+    }
+
+    /// What is known of echo.
+    pub const fn echo(&mut self, echo: Echo) {
+        self.echo = echo;
+    }
+
+    /// Counts what the session says; returns whether it is a good frame.
+    pub fn take(&mut self, now: Micros, output: &Output) -> bool {
+        match output {
+            Output::Transmit(_) => return false,
+            Output::Silent { .. } => self.counts.silent += 1.0,
+            Output::Skip { bytes, why } => {
+                self.counts.skipped += bytes.len() as f64;
+                self.remember(now, bytes, false, true, why.to_string());
+            }
+            Output::Frame {
+                bytes,
+                sure,
+                latency,
+            } => {
+                self.counts.framed += bytes.len() as f64;
+                self.changed = true;
+                return self.take_frame(now, bytes, *sure, *latency);
+            }
+        }
+        self.changed = true;
+        false
+    }
+
+    fn take_frame(&mut self, now: Micros, bytes: &[u8], sure: bool, latency: Micros) -> bool {
+        let frame = self
+            .decoder
+            .as_ref()
+            .and_then(|decoder| frame_of(decoder, bytes, sure));
+        let text = match &frame {
+            Some(frame) => frame.faults().first().map(|fault| fault.kind.to_string()),
+            None => Some("no frame of this format".into()),
+        };
+        let good = text.is_none();
+        if good {
+            if let Some(frame) = &frame {
+                let named = frame.layout.fields().flat_map(|field| {
+                    let raw = frame.layout.read(field, frame.bits);
+                    field
+                        .row
+                        .bits
+                        .iter()
+                        .map(move |bit| bits::bit(raw, bit.place))
+                });
+                for (index, set) in named.enumerate() {
+                    if index == self.seen_bits.len() {
+                        self.seen_bits.push(0.0);
+                    }
+                    self.seen_bits[index] += f64::from(u8::from(set));
+                }
+            }
+            self.counts.good += 1.0;
+            self.last_good = Some(bytes.into());
+            self.good_times.push_back(now);
+            self.latencies.push_back(latency);
+            if self.latencies.len() > LATENCIES {
+                self.latencies.pop_front();
+            }
+        } else {
+            self.counts.bad += 1.0;
+        }
+        self.remember(now, bytes, true, sure, text.unwrap_or_default());
+        good
+    }
+
+    fn remember(&mut self, at: Micros, bytes: &[u8], frame: bool, sure: bool, text: String) {
+        self.log.push_front(Seen {
+            at,
+            bytes: bytes.into(),
+            frame,
+            sure,
+            text,
+        });
+        self.log.truncate(LOG);
+    }
+
+    /// What the page shows; the link's state is the caller's.
+    pub fn snapshot(&mut self, now: Micros) -> Snapshot {
+        self.changed = false;
+        while self
+            .good_times
+            .front()
+            .is_some_and(|at| at + RATE_OVER < now)
+        {
+            self.good_times.pop_front();
+        }
+        let over = (now - self.opened).clamp(1, RATE_OVER) as f64 / 1e6;
+        let mut sorted: Vec<Micros> = self.latencies.iter().copied().collect();
+        sorted.sort_unstable();
+        let latency = |share: usize| {
+            let at = (sorted.len() * share / 100).min(sorted.len().saturating_sub(1));
+            sorted.get(at).map(|latency| *latency as f64 / 1000.0)
+        };
+        let mut snapshot = Snapshot {
+            demo: self.demo,
+            counts: self.counts,
+            rate: self.good_times.len() as f64 / over,
+            latency: latency(50),
+            latency_p99: latency(99),
+            echo: match self.echo {
+                Echo::Unknown => None,
+                Echo::Absent => Some(false),
+                Echo::Present => Some(true),
+            },
+            ..Snapshot::default()
+        };
+        if let Some(decoder) = &self.decoder {
+            snapshot.log = self
+                .log
+                .iter()
+                .map(|seen| entry(decoder, seen, self.opened))
+                .collect();
+            if let Some(bytes) = &self.last_good
+                && let Some(frame) = frame_of(decoder, bytes, true)
+            {
+                snapshot.reading = shown(&frame);
+                snapshot.lamps = self.lamps(&frame);
+            }
+        }
+        snapshot
+    }
+
+    fn lamps(&self, frame: &Frame<'_>) -> Vec<Lamp> {
+        let bits = frame.explain().into_iter().flat_map(|note| note.bits);
+        bits.zip(&self.seen_bits)
+            .map(|(bit, seen)| Lamp {
+                name: bit.name.into(),
+                doc: bit.doc.into(),
+                now: bit.set,
+                seen: *seen,
+            })
+            .collect()
+    }
+}
+
+fn frame_of<'a>(decoder: &'a Decoder, bytes: &'a [u8], sure: bool) -> Option<Frame<'a>> {
+    decoder.frame(bytes).map(|frame| Frame { sure, ..frame })
+}
+
+fn shown(frame: &Frame<'_>) -> Option<Shown> {
+    let reading = frame.reading()?;
+    let values = frame.values();
+    let scaled = |value: Option<i32>| value.map(|value| f64::from(value) / 10.0);
+    Some(Shown {
+        angle: reading.angle as f64,
+        angle_bits: reading.angle_bits,
+        degrees: degrees(reading.angle, reading.angle_bits),
+        turns: reading.turns.map(|turns| turns as f64),
+        error: reading.error,
+        warning: reading.warning,
+        speed: scaled(values.speed),
+        temperature: scaled(values.temperature),
+    })
+}
+
+fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
+    let frame = if seen.frame {
+        frame_of(decoder, &seen.bytes, seen.sure)
+    } else {
+        None
+    };
+    let class = |index: usize| {
+        let field = frame
+            .as_ref()
+            .and_then(|frame| frame.layout.field_at(index * 8 + 7));
+        field.map_or("none", |field| field.row.role.class().name())
+    };
+    Entry {
+        time: seen.at.saturating_sub(opened) as f64 / 1e6,
+        bytes: seen
+            .bytes
+            .iter()
+            .enumerate()
+            .map(|(index, byte)| (*byte, class(index).into()))
+            .collect(),
+        ok: frame.as_ref().is_some_and(Frame::ok),
+        text: seen.text.clone(),
+    }
+}
