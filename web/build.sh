@@ -8,12 +8,16 @@ say "building the core and the page"
 wasm_cargo build --profile wasm -p encoderscope-web --bins
 built=$wasm_target_dir/$wasm_target/wasm
 
+# What rustc and wasm-bindgen emit; more would shut browsers out.
+features=(--enable-bulk-memory --enable-multivalue --enable-mutable-globals
+  --enable-nontrapping-float-to-int --enable-reference-types --enable-sign-ext)
+
 # One WASM file: its cargo name, the name it is imported by.
 bind() {
   local from=$built/$1.wasm to=web/pkg/$2_bg.wasm
   [ "$to" -nt "$from" ] && return
   wasm-bindgen --target web --no-typescript --out-dir web/pkg --out-name "$2" "$from"
-  npx wasm-opt --all-features -O3 "$to" -o "$to"
+  npx wasm-opt "${features[@]}" -O3 "$to" -o "$to"
 }
 mkdir -p web/pkg
 bind page page

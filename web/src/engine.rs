@@ -43,6 +43,7 @@ struct State {
 /// An open link.
 struct Run {
     session: Session,
+    since: Micros,
     wire: Wire,
     silent: u32,
     failing: u32,
@@ -193,6 +194,7 @@ impl Engine {
         state.tally.start(decoder, matches!(wire, Wire::Demo(_)));
         state.run = Some(Run {
             session,
+            since: now(),
             wire,
             silent: 0,
             failing: 0,
@@ -350,7 +352,7 @@ impl Run {
         let mut link = None;
         // The built-in encoder lives in virtual time, which catches up here; after a pause of
         // the tab it does not replay more than a second.
-        let oldest = now.saturating_sub(1_000_000);
+        let oldest = now.saturating_sub(1_000_000).max(self.since);
         loop {
             let mut idle = true;
             let at = match &mut self.wire {

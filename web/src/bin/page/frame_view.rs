@@ -33,36 +33,45 @@ impl Explained {
     }
 }
 
+/// A field's name for people.
+fn spaced(name: &str) -> String {
+    name.replace('_', " ")
+}
+
 /// Bits and fields of a frame.
 #[component]
 pub(crate) fn FrameView(frame: Explained) -> impl IntoView {
     let lit = RwSignal::new(None::<usize>);
-    let cells = (0..frame.bits.len())
-        .map(|index| {
-            let note = frame.note_at(index);
-            let class = note.map_or("none", |note| frame.notes[note].class.name());
-            let field = note.map_or("", |note| frame.notes[note].name);
-            let first = index == 0 || frame.note_at(index - 1) != note;
-            view! {
-                <button
-                    class=format!("bit {class}")
-                    class:lit=move || note.is_some() && lit.get() == note
-                    class:first=first
-                    class:byte-start=frame.bytes && index.is_multiple_of(8)
-                    data-testid="explain-bit"
-                    data-field=field
-                    data-index=index
-                    aria-label=format!("bit {index}, {field}")
-                    on:mouseenter=move |_| lit.set(note)
-                    on:focus=move |_| lit.set(note)
-                    on:mouseleave=move |_| lit.set(None)
-                    on:blur=move |_| lit.set(None)
-                >
-                    {u8::from(frame.bits[index])}
-                </button>
-            }
-        })
-        .collect_view();
+    let cell = |index: usize| {
+        let note = frame.note_at(index);
+        let class = note.map_or("none", |note| frame.notes[note].class.name());
+        let field = note.map_or("", |note| frame.notes[note].name);
+        let first = index == 0 || frame.note_at(index - 1) != note;
+        view! {
+            <button
+                class=format!("bit {class}")
+                class:lit=move || note.is_some() && lit.get() == note
+                class:first=first
+                data-testid="explain-bit"
+                data-field=field
+                data-index=index
+                aria-label=format!("bit {index}, {}", spaced(field))
+                on:mouseenter=move |_| lit.set(note)
+                on:focus=move |_| lit.set(note)
+                on:mouseleave=move |_| lit.set(None)
+                on:blur=move |_| lit.set(None)
+            >
+                {u8::from(frame.bits[index])}
+            </button>
+        }
+    };
+    let len = frame.bits.len();
+    let cells = if frame.bytes {
+        let octet = |at: usize| view! { <span class="octet">{(at..at + 8).map(cell).collect_view()}</span> };
+        (0..len).step_by(8).map(octet).collect_view().into_any()
+    } else {
+        (0..len).map(cell).collect_view().into_any()
+    };
     let rows = frame
         .notes
         .into_iter()
@@ -100,10 +109,10 @@ fn FieldRow(index: usize, note: Note, lit: RwSignal<Option<usize>>) -> impl Into
             on:mouseleave=move |_| lit.set(None)
             on:blur=move |_| lit.set(None)
         >
-            <span class="name">{note.name}</span>
+            <span class="name">{spaced(note.name)}</span>
             <span class="raw">{value} <small>" · " {width} " bit"</small></span>
             <div class="says">
-                <p>{note.text}</p>
+                {text}
                 {set}
                 {note.fault.map(|fault| view! { <p class="fault">{fault.kind.to_string()}</p> })}
                 <p class="doc">{note.doc}</p>

@@ -1,0 +1,115 @@
+// The console without a port: first view, demo, and browsers that have no Web Serial.
+import { at, expect, expectLink, number, test, until } from './page.js';
+
+const expectDemo = async (page) => {
+  await at(page, 'demo').click();
+  await expectLink(page, 'reading');
+  const first = await number(page, 'angle');
+  await until(page, 'angle', (angle) => Math.abs(angle - first) > 10_000);
+  await until(page, 'frames-ok', (frames) => frames > 500);
+  expect(await number(page, 'frames-bad')).toBe(0);
+};
+
+const expectDecoder = async (page) => {
+  await page.goto('/#/decode?format=t485');
+  await at(page, 'dump-input').fill('02 20 b4 bd 1c 37');
+  await expect(at(page, 'dump-row')).toHaveAttribute('data-angle', '1883572');
+};
+
+test('the first view has three doors, and the demo turns behind them', async ({ page }) => {
+  await page.goto('/');
+  for (const door of ['Connect an encoder', 'Try the demo', 'Paste a dump']) {
+    await expect(page.getByText(door, { exact: true })).toBeVisible();
+  }
+  const first = await number(page, 'angle');
+  await until(page, 'angle', (angle) => angle !== first && angle > 0);
+  await expectDemo(page);
+});
+
+test('the demo speaks RS485 too, and goes on with another profile', async ({ page }) => {
+  await page.goto('/#/console?format=rs485&command=s');
+  await expectDemo(page);
+  await expect(at(page, 'speed')).toBeVisible();
+  await page.getByText('Encoder settings').click();
+  await page.locator('select[name=command]').selectOption('t');
+  await expect(at(page, 'temperature')).toHaveAttribute('data-value', '31.2');
+  expect(page.url()).toContain('command=t');
+  await page.locator('input[name=angle-bits]').fill('99');
+  await page.locator('input[name=angle-bits]').blur();
+  await expect(page.getByRole('alert')).toContainText('99 is not in 1…24');
+});
+
+test('a link with a wrong parameter says what is wrong', async ({ page }) => {
+  await page.goto('/#/console?format=t486');
+  await expect(page.getByRole('alert')).toContainText('t486');
+  await page.goto('/#/console?format=t485&angle-bits=x');
+  await expect(page.getByRole('alert')).toContainText('angle-bits');
+});
+
+test('a browser without Web Serial is told so; demo and decoder work', async ({ page }) => {
+  await page.addInitScript(() => {
+    delete Navigator.prototype.serial;
+  });
+  await page.goto('/');
+  await expectLink(page, 'no-serial');
+  await expect(page.getByText('has no Web Serial')).toBeVisible();
+  await expect(at(page, 'connect')).toBeDisabled();
+  await expectDemo(page);
+  await expectDecoder(page);
+});
+
+test('a page over plain http is told so; demo and decoder work', async ({ page }) => {
+  await page.goto('http://encoderscope.test:8089/');
+  expect(await page.evaluate(() => isSecureContext)).toBe(false);
+  await expectLink(page, 'no-serial');
+  await expect(page.getByText('plain http')).toBeVisible();
+  await expect(at(page, 'connect')).toBeDisabled();
+  await expectDemo(page);
+  await page.goto('http://encoderscope.test:8089/#/decode?format=t485');
+  await at(page, 'dump-input').fill('02 20 b4 bd 1c 37');
+  await expect(at(page, 'dump-row')).toHaveAttribute('data-ok', 'true');
+});
+
+test('a browser without workers runs the engine on the page', async ({ page }) => {
+  await page.addInitScript(() => {
+    window.Worker = class {
+      constructor() {
+        throw new Error('no workers here');
+      }
+    };
+  });
+  await page.goto('/');
+  await expectDemo(page);
+  expect(page.workers()).toHaveLength(0);
+});
+
+test('no port chosen is said', async ({ page }) => {
+  await page.addInitScript(() => {
+    const serial = {
+      getPorts: async () => [],
+      requestPort: async () => {
+        throw new DOMException('No port selected by the user.', 'NotFoundError');
+      },
+    };
+    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
+  });
+  await page.goto('/');
+  await at(page, 'connect').click();
+  await expect(page.getByRole('alert')).toHaveText('No port was chosen.');
+});
+
+test('it fits a phone and follows the theme', async ({ page }) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  for (const area of ['console', 'decode']) {
+    await page.goto(`/#/${area}`);
+    await expect(page.locator('nav')).toBeInViewport();
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    expect(wide).toBeLessThanOrEqual(390);
+  }
+  const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await ground();
+  await page.getByLabel('Light or dark').click();
+  expect(await ground()).not.toBe(light);
+  await page.reload();
+  expect(await ground()).not.toBe(light);
+});

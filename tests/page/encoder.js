@@ -1,0 +1,38 @@
+// The emulated encoder behind a pty, bound over the serial port that Chromium lists.
+import { execFileSync, spawn } from 'node:child_process';
+import { createInterface } from 'node:readline';
+
+const binary = new URL('../../target/debug/pty-encoder', import.meta.url).pathname;
+const port = '/dev/ttyS0';
+
+export class Encoder {
+  /** Starts an encoder: profile parameters as options, then settings. */
+  static async start(...words) {
+    const encoder = new Encoder();
+    encoder.process = spawn(binary, words, { stdio: ['pipe', 'pipe', 'inherit'] });
+    encoder.ended = new Promise((resolve) => encoder.process.once('exit', resolve));
+    const lines = createInterface({ input: encoder.process.stdout });
+    const [pty] = await Promise.race([
+      new Promise((resolve) => lines.once('line', (line) => resolve([line]))),
+      encoder.ended.then((code) => {
+        throw new Error(`the encoder ended with ${code}`);
+      }),
+    ]);
+    execFileSync('mount', ['--bind', pty, port]);
+    encoder.bound = true;
+    return encoder;
+  }
+
+  /** Changes a setting, `name=value`. */
+  set(setting) {
+    this.process.stdin.write(`${setting}\n`);
+  }
+
+  /** Pulls the plug: the other end of the pty is gone. */
+  async unplug() {
+    this.process.stdin.end();
+    await this.ended;
+    if (this.bound) execFileSync('umount', ['--lazy', port]);
+    this.bound = false;
+  }
+}

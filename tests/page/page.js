@@ -1,0 +1,38 @@
+// What the page tests share.
+import { test as base, expect } from '@playwright/test';
+
+/** A page whose errors fail the test, and that may talk to nobody but its own server. */
+export const test = base.extend({
+  page: async ({ page }, use) => {
+    const errors = [];
+    page.on('pageerror', (error) => errors.push(`${error}`));
+    page.on('console', (message) => {
+      if (message.type() === 'error' || message.type() === 'warning') errors.push(message.text());
+    });
+    page.on('request', (request) => {
+      if (!/^(http:\/\/(localhost|encoderscope\.test):8089\/|data:)/.test(request.url())) {
+        errors.push(`asked for ${request.url()}`);
+      }
+    });
+    await use(page);
+    expect(errors).toEqual([]);
+  },
+});
+
+export { expect };
+
+/** The element of a `data-testid`. */
+export const at = (page, id) => page.locator(`[data-testid="${id}"]`);
+
+/** The number in an element's `data-value`. */
+export const number = async (page, id) => Number(await at(page, id).getAttribute('data-value'));
+
+/** The state of the link. */
+export const link = (page) => at(page, 'link-state');
+
+/** Waits for a link state. */
+export const expectLink = (page, state) => expect(link(page)).toHaveAttribute('data-value', state);
+
+/** Waits until a number satisfies a condition. */
+export const until = (page, id, holds) =>
+  expect.poll(async () => holds(await number(page, id)), { message: id }).toBe(true);

@@ -1,0 +1,152 @@
+// Real Web Serial in real Chromium, against the emulated encoder.
+import { at, expect, expectLink, number, test, until } from './page.js';
+import { Encoder } from './encoder.js';
+
+let encoder;
+const plug = async (...words) => {
+  encoder = await Encoder.start(...words);
+};
+test.afterEach(async () => {
+  await encoder?.unplug();
+  encoder = undefined;
+});
+
+const connect = async (page, query) => {
+  await page.goto(`/#/console?${query}`);
+  await at(page, 'connect').click();
+};
+
+/** Bytes in are bytes in frames and bytes skipped, but for a reply that is still coming in. */
+const expectAllAccounted = async (page) => {
+  await at(page, 'disconnect').click();
+  await expectLink(page, 'closed');
+  const [all, framed, skipped] = await Promise.all(
+    ['bytes-in', 'bytes-framed', 'bytes-skipped'].map((id) => number(page, id)),
+  );
+  expect(all).toBeGreaterThan(0);
+  expect(all - framed - skipped).toBeGreaterThanOrEqual(0);
+  expect(all - framed - skipped).toBeLessThan(64);
+};
+
+for (const [name, query] of [
+  ['T485', 'format=t485&angle-bits=23&baud=2500000'],
+  ['RS485', 'format=rs485&angle-bits=24&command=d&baud=2500000'],
+]) {
+  test(`${name} is read through the worker, the angle moves, unplugging is said @serial`, async ({ page }) => {
+    const options = query.split('&').flatMap((pair) => {
+      const [key, value] = pair.split('=');
+      return [`--${key}`, value];
+    });
+    await plug(...options, 'turning=0.2');
+    await connect(page, query);
+    await expectLink(page, 'reading');
+    const first = await number(page, 'angle');
+    await until(page, 'angle', (angle) => Math.abs(angle - first) > 100_000);
+    await until(page, 'frames-ok', (frames) => frames > 300);
+    await until(page, 'rate', (rate) => rate > 100);
+    expect(await number(page, 'frames-bad')).toBe(0);
+    expect(await number(page, 'bytes-skipped')).toBe(0);
+
+    expect(page.workers()).toHaveLength(1);
+    const held = await page.workers()[0].evaluate(async () => {
+      const [port] = await navigator.serial.getPorts();
+      return port.readable !== null && port.readable.locked;
+    });
+    expect(held).toBe(true);
+
+    await encoder.unplug();
+    await expectLink(page, 'lost');
+    await expect(at(page, 'link-state')).toContainText('unplugged');
+    await expect(at(page, 'connect')).toHaveText('Reconnect');
+
+    await plug(...options, 'still=0.25');
+    await at(page, 'connect').click();
+    await expectLink(page, 'reading');
+    await until(page, 'angle', (angle) => angle === 2 ** (name === 'T485' ? 21 : 22));
+  });
+}
+
+test('the angle, the turns and the status are those of the encoder @serial', async ({ page }) => {
+  await plug('--format', 't485', '--angle-bits', '17', 'still=7.5', 'status=16');
+  await connect(page, 'format=t485&angle-bits=17');
+  await until(page, 'angle', (angle) => angle === 65_536);
+  await expect(at(page, 'angle')).toContainText('180.000');
+  expect(await number(page, 'turns')).toBe(7);
+  await expect(at(page, 'status')).toHaveAttribute('data-value', 'battery low');
+  encoder.set('error=1');
+  await expect(at(page, 'status')).toHaveAttribute('data-value', 'encoder error, battery low');
+  await expect(at(page, 'status')).toContainText('red');
+});
+
+test('an echoing adapter is read and named @serial', async ({ page }) => {
+  await plug('--format', 't485', 'still=0.5', 'echo=1');
+  await connect(page, 'format=t485');
+  await expectLink(page, 'reading');
+  await until(page, 'angle', (angle) => angle === 2 ** 22);
+  await expect(page.getByText('the adapter echoes requests')).toBeVisible();
+  expect(await number(page, 'frames-bad')).toBe(0);
+  await expectAllAccounted(page);
+});
+
+test('noise is counted, and no wrong angle is shown as good @serial', async ({ page }) => {
+  await plug('--format', 't485', 'still=0.5', 'flip=15', 'drop=15', 'insert=15');
+  await connect(page, 'format=t485');
+  await until(page, 'frames-bad', (bad) => bad >= 15);
+  await until(page, 'bytes-skipped', (bytes) => bytes > 15);
+  await until(page, 'frames-ok', (good) => good > 5);
+  expect(await number(page, 'angle')).toBe(2 ** 22);
+  const rows = at(page, 'frame-row');
+  for (const row of await rows.all()) {
+    const ok = await row.getAttribute('data-ok', { timeout: 500 }).catch(() => null);
+    if (ok === 'true') await expect(row).toContainText('✓', { timeout: 500 }).catch(() => {});
+  }
+  await expectAllAccounted(page);
+});
+
+test('silence, an echo alone and a wrong profile have names and remedies @serial', async ({ page }) => {
+  await plug('--format', 't485', 'silent=1');
+  await connect(page, 'format=t485');
+  await expectLink(page, 'silent');
+  await expect(at(page, 'link-state')).toContainText('supply');
+  encoder.set('echo=1');
+  await expectLink(page, 'echo-only');
+  encoder.set('silent=0');
+  await expectLink(page, 'reading');
+  await page.goto('/#/console?format=rs485&turns-bits=0&command=1');
+  await expectLink(page, 'silent');
+});
+
+test('a wrong width is not read as a wrong angle @serial', async ({ page }) => {
+  await plug('--format', 't485', '--angle-bits', '23', 'still=0.9');
+  await connect(page, 'format=t485&angle-bits=17');
+  await expectLink(page, 'failing');
+  await expect(at(page, 'angle')).not.toHaveAttribute('data-value', /./);
+  expect(await number(page, 'frames-ok')).toBe(0);
+});
+
+test('a port that cannot be opened says so, and the demo is one click away @serial', async ({ page }) => {
+  await plug('--format', 't485', 'still=0.5');
+  const first = await page.context().newPage();
+  await connect(first, 'format=t485');
+  await expectLink(first, 'reading');
+  await connect(page, 'format=t485');
+  await expectLink(page, 'refused');
+  await expect(at(page, 'link-state')).toContainText('other programs');
+  await at(page, 'demo').click();
+  await expectLink(page, 'reading');
+  await first.close();
+  await at(page, 'connect').click();
+  await expectLink(page, 'reading');
+  await until(page, 'angle', (angle) => angle === 2 ** 22);
+});
+
+test('nothing that changes the encoder is ever sent @serial', async ({ page }) => {
+  await plug('--format', 't485', 'still=3.25');
+  await connect(page, 'format=t485');
+  await until(page, 'frames-ok', (frames) => frames > 500);
+  await at(page, 'disconnect').click();
+  await expectLink(page, 'closed');
+  await at(page, 'connect').click();
+  await until(page, 'angle', (angle) => angle === 2 ** 21);
+  expect(await number(page, 'turns')).toBe(3);
+});

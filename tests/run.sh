@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Every test there is, in the order in which failures are cheapest to find.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source web/toolchain.sh
+
+if ! command -v chromium >/dev/null || ! command -v chromedriver >/dev/null; then
+  apt_get "Chromium, which runs the tests" chromium chromium-driver
+fi
+export CHROMEDRIVER=${CHROMEDRIVER:-/usr/bin/chromedriver}
+export RUSTFLAGS="${RUSTFLAGS:-}"
+
+say "format"
+cargo fmt --check
+
+say "lints"
+cargo clippy -q -p encoderscope -p encoderscope-tests --all-targets -- -D warnings
+wasm_cargo clippy -q -p encoderscope-web --bins -- -D warnings
+RUSTDOCFLAGS="-D warnings" cargo doc -q --no-deps -p encoderscope
+
+say "the core, native"
+cargo test -p encoderscope -p encoderscope-tests
+
+say "the core, in headless Chromium"
+wasm_cargo test -p encoderscope-tests --test core
+
+say "the page"
+web/build.sh
+cargo build -q -p encoderscope-tests --bin pty-encoder
+tests/page/run.sh

@@ -1,0 +1,154 @@
+//! An emulated encoder behind a pty, for page tests with real Web Serial.
+//!
+//! `pty-encoder --format t485 --angle-bits 23 turning=0.5`: profile parameters, then settings.
+//! Prints the path of the pty's other end, then takes a setting a line from standard input:
+//! `turning=R` (revolutions per second), `still=TURNS`, `status=BITS`, `error=0|1`,
+//! `warning=0|1`, and the faults `echo=0|1`, `silent=0|1`, `flip=N`, `drop=N`, `insert=N`
+//! (N of 1000 reply bytes). The end of standard input pulls the plug.
+
+#[cfg(target_arch = "wasm32")]
+fn main() {}
+
+#[cfg(not(target_arch = "wasm32"))]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    native::run()
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+mod native {
+    use encoderscope::{
+        emulator::{Emulator, Shaft},
+        profile::Profile,
+    };
+    use rustix::{
+        event::{PollFd, PollFlags, Timespec, poll},
+        fs::{Mode, OFlags, open},
+        io::{Errno, read, write},
+        pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt},
+        termios::{OptionalActions, tcgetattr, tcsetattr},
+    };
+    use std::{error::Error, io::Write, os::fd::OwnedFd, time::Instant};
+
+    pub(crate) fn run() -> Result<(), Box<dyn Error>> {
+        let (parameters, settings) = arguments()?;
+        let pairs = parameters
+            .iter()
+            .map(|(name, value)| (name.as_str(), value.as_str()));
+        let mut emulator = Emulator::new(Profile::parse(pairs)?, Shaft::still(0.0))?;
+        for setting in &settings {
+            set(&mut emulator, setting)?;
+        }
+
+        let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
+        grantpt(&master)?;
+        unlockpt(&master)?;
+        let path = ptsname(&master, Vec::new())?;
+        // Held open so that the pty stays raw, and readable while no browser has it.
+        let slave = open(
+            path.as_c_str(),
+            OFlags::RDWR | OFlags::NOCTTY,
+            Mode::empty(),
+        )?;
+        let mut raw = tcgetattr(&slave)?;
+        raw.make_raw();
+        tcsetattr(&slave, OptionalActions::Now, &raw)?;
+        println!("{}", path.to_str()?);
+        std::io::stdout().flush()?;
+        serve(&mut emulator, &master)
+    }
+
+    type Arguments = (Vec<(String, String)>, Vec<String>);
+
+    fn arguments() -> Result<Arguments, Box<dyn Error>> {
+        let mut parameters = Vec::new();
+        let mut settings = Vec::new();
+        let mut words = std::env::args().skip(1);
+        while let Some(word) = words.next() {
+            match word.strip_prefix("--") {
+                Some(name) => {
+                    let value = words
+                        .next()
+                        .ok_or_else(|| format!("--{name} needs a value"))?;
+                    parameters.push((name.to_owned(), value));
+                }
+                None => settings.push(word),
+            }
+        }
+        Ok((parameters, settings))
+    }
+
+    fn set(emulator: &mut Emulator, setting: &str) -> Result<(), Box<dyn Error>> {
+        let (name, value) = setting
+            .trim()
+            .split_once('=')
+            .ok_or("a setting is name=value")?;
+        match name {
+            "turning" => emulator.shaft = Shaft::turning(emulator.shaft.start, value.parse()?),
+            "still" => emulator.shaft = Shaft::still(value.parse()?),
+            "status" => emulator.status = value.parse()?,
+            "error" => emulator.error = value == "1",
+            "warning" => emulator.warning = value == "1",
+            "echo" => emulator.faults.echo = value == "1",
+            "silent" => emulator.faults.silent = value == "1",
+            "flip" => emulator.faults.flip = value.parse()?,
+            "drop" => emulator.faults.drop = value.parse()?,
+            "insert" => emulator.faults.insert = value.parse()?,
+            _ => return Err(format!("{name} is no setting").into()),
+        }
+        Ok(())
+    }
+
+    fn serve(emulator: &mut Emulator, master: &OwnedFd) -> Result<(), Box<dyn Error>> {
+        let start = Instant::now();
+        let stdin = std::io::stdin();
+        let mut buffer = [0; 4096];
+        let mut text = String::new();
+        loop {
+            let now = start.elapsed().as_micros() as u64;
+            while let Some(bytes) = emulator.poll_output(now) {
+                write_all(master, &bytes)?;
+            }
+            let wait = emulator
+                .deadline()
+                .map_or(100_000, |due| due.saturating_sub(now));
+            let mut ready = [
+                PollFd::new(master, PollFlags::IN),
+                PollFd::new(&stdin, PollFlags::IN),
+            ];
+            let timeout = Timespec {
+                tv_sec: 0,
+                tv_nsec: wait as i64 * 1000,
+            };
+            if let Err(error) = poll(&mut ready, Some(&timeout))
+                && error != Errno::INTR
+            {
+                return Err(error.into());
+            }
+            let (line, command) = (ready[0].revents(), ready[1].revents());
+            if line.contains(PollFlags::IN) {
+                let count = read(master, &mut buffer)?;
+                let now = start.elapsed().as_micros() as u64;
+                emulator.handle_input(now, &buffer[..count]);
+            }
+            if command.intersects(PollFlags::IN | PollFlags::HUP) {
+                let count = read(&stdin, &mut buffer)?;
+                if count == 0 {
+                    return Ok(());
+                }
+                text.push_str(&String::from_utf8_lossy(&buffer[..count]));
+                while let Some(end) = text.find('\n') {
+                    let setting: String = text.drain(..=end).collect();
+                    set(emulator, &setting)?;
+                }
+            }
+        }
+    }
+
+    fn write_all(master: &OwnedFd, mut bytes: &[u8]) -> Result<(), Errno> {
+        while !bytes.is_empty() {
+            let count = write(master, bytes)?;
+            bytes = &bytes[count..];
+        }
+        Ok(())
+    }
+}
