@@ -5,6 +5,7 @@
 
 use encoderscope::{
     decode::{Decoded, Decoder},
+    detect::detect,
     dump,
     profile::Profile,
 };
@@ -25,8 +26,13 @@ fn main() -> ExitCode {
 
 fn run() -> Result<(), Box<dyn std::error::Error>> {
     let mut pairs = Vec::new();
+    let mut detecting = false;
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
+        if word == "--detect" {
+            detecting = true;
+            continue;
+        }
         let name = word
             .strip_prefix("--")
             .ok_or_else(|| format!("{word:?} is no option; write --name value"))?;
@@ -41,18 +47,24 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
         };
         pairs.push((name, value));
     }
+    let mut input = Vec::new();
+    io::stdin().read_to_end(&mut input)?;
+    let text = String::from_utf8_lossy(&input);
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    if detecting {
+        for candidate in detect(&text) {
+            writeln!(out, "{}", candidate.record())?;
+        }
+        return Ok(out.flush()?);
+    }
+
     let profile = Profile::parse(
         pairs
             .iter()
             .map(|(name, value)| (name.as_str(), value.as_str())),
     )?;
     let decoder = Decoder::new(profile)?;
-    let mut input = Vec::new();
-    io::stdin().read_to_end(&mut input)?;
-    let text = String::from_utf8_lossy(&input);
     let dump = dump::parse(&text, profile.format.medium());
-
-    let mut out = io::BufWriter::new(io::stdout().lock());
     let mut broken = Ok(());
     let summary = decoder.dump(&dump, &mut |decoded| {
         if let Decoded::Frame(frame) = decoded

@@ -7,6 +7,7 @@
 //! - [`decode`]: a [`decode::Frame`] is bits and the layout that reads them;
 //! - [`reading`]: what the shaft does, from good frames only;
 //! - [`explain`]: what the bits say, from any frame;
+//! - [`detect`]: what a dump may be, ranked by evidence;
 //! - [`session`]: the host's side of a conversation, [`emulator`] the encoder's.
 //!
 //! Every layout fact stands in one table of [`format`], made by `layout!` ([`layout`]). The
@@ -19,6 +20,7 @@ extern crate alloc;
 pub mod bits;
 pub mod check;
 pub mod decode;
+pub mod detect;
 pub mod dump;
 pub mod emulator;
 pub mod explain;

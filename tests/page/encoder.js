@@ -5,6 +5,12 @@ import { createInterface } from 'node:readline';
 const binary = new URL('../../target/debug/pty-encoder', import.meta.url).pathname;
 const port = '/dev/ttyS0';
 
+/** Puts something over the port that is no serial line; returns what takes it away again. */
+export const blockPort = () => {
+  execFileSync('mount', ['--bind', '/dev/null', port]);
+  return () => execFileSync('umount', ['--lazy', port]);
+};
+
 export class Encoder {
   /** Starts an encoder: profile parameters as options, then settings. */
   static async start(...words) {

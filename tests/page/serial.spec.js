@@ -1,6 +1,6 @@
 // Real Web Serial in real Chromium, against the emulated encoder.
 import { at, expect, expectLink, number, test, until } from './page.js';
-import { Encoder } from './encoder.js';
+import { Encoder, blockPort } from './encoder.js';
 
 let encoder;
 const plug = async (...words) => {
@@ -112,8 +112,10 @@ test('silence, an echo alone and a wrong profile have names and remedies @serial
   await expectLink(page, 'echo-only');
   encoder.set('silent=0');
   await expectLink(page, 'reading');
+  // A T485 encoder answers an unknown operation, but not with what RS485 expects.
   await page.goto('/#/console?format=rs485&turns-bits=0&command=1');
-  await expectLink(page, 'silent');
+  await expectLink(page, 'failing');
+  await expect(at(page, 'link-state')).toContainText('order code');
 });
 
 test('a wrong width is not read as a wrong angle @serial', async ({ page }) => {
@@ -125,16 +127,14 @@ test('a wrong width is not read as a wrong angle @serial', async ({ page }) => {
 });
 
 test('a port that cannot be opened says so, and the demo is one click away @serial', async ({ page }) => {
-  await plug('--format', 't485', 'still=0.5');
-  const first = await page.context().newPage();
-  await connect(first, 'format=t485');
-  await expectLink(first, 'reading');
+  const unblock = blockPort();
   await connect(page, 'format=t485');
   await expectLink(page, 'refused');
   await expect(at(page, 'link-state')).toContainText('other programs');
   await at(page, 'demo').click();
   await expectLink(page, 'reading');
-  await first.close();
+  unblock();
+  await plug('--format', 't485', 'still=0.5');
   await at(page, 'connect').click();
   await expectLink(page, 'reading');
   await until(page, 'angle', (angle) => angle === 2 ** 22);

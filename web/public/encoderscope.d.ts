@@ -107,6 +107,15 @@ export function formats(): FormatInfo[];
 /** Decodes pasted text. Throws only when the profile is wrong. */
 export function decode(profile: Profile, text: string): Decoded;
 
+/** A profile that the text may be, with how sure that is and why. */
+export interface Candidate extends Profile {
+  verdict: 'certain' | 'likely' | 'ambiguous' | 'unlikely';
+  evidence: string[];
+}
+
+/** Ranks what pasted text may be, best first; empty where more speaks against than for. */
+export function detect(text: string): Candidate[];
+
 /** Explains one whole frame, field by field. */
 export function explain(profile: Profile, hexOrBits: string): Note[];
 

@@ -118,6 +118,18 @@ pub fn decode(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
     to_js(record)
 }
 
+/// Ranks what pasted text may be, best first.
+#[wasm_bindgen]
+pub fn detect(text: &str) -> Result<JsValue, JsError> {
+    let found = encoderscope::detect::detect(text);
+    to_js(Value::List(
+        found
+            .iter()
+            .map(|candidate| candidate.record().into())
+            .collect(),
+    ))
+}
+
 /// Explains the first frame of the text, field by field.
 #[wasm_bindgen]
 pub fn explain(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {

@@ -7,6 +7,7 @@ use crate::{
 };
 use encoderscope::{
     decode::{Decoded, Decoder, Frame, Summary},
+    detect::{Candidate, detect},
     dump::{self, Dump},
     explain::grouped,
     format::{Format, Medium},
@@ -14,7 +15,7 @@ use encoderscope::{
     profile::Profile,
     reading::degrees,
 };
-use encoderscope_web::link::encode;
+use encoderscope_web::link::{encode, query};
 use leptos::prelude::*;
 
 /// Rows that are shown; more would only slow the page down.
@@ -214,6 +215,7 @@ pub(crate) fn Decode() -> impl IntoView {
                     on:input:target=move |event| app.dump.set(event.target().value())
                 />
                 <ReadNote table=table />
+                <Candidates />
                 <div class="doors">
                     <button data-testid="example" on:click=move |_| app.dump.set(example(app.profile.get_untracked().format).into())>
                         "Show an example"
@@ -244,6 +246,61 @@ pub(crate) fn Decode() -> impl IntoView {
                 })}
             </div>
         </div>
+    }
+}
+
+/// A profile in a line.
+fn describe(profile: &Profile) -> String {
+    let mut text = format!("{}, {} bit", profile.format.title(), profile.angle_bits);
+    if profile.turns_bits > 0 {
+        text += &format!(", {} bit turns", profile.turns_bits);
+    }
+    if profile.format == Format::Rs485 {
+        text += &format!(", reply to ‘{}’", profile.command.letter());
+    }
+    if profile.format == Format::BissC {
+        text += &format!(", {} status bits", profile.status_bits);
+    }
+    text
+}
+
+/// What the dump may be; a click reads it that way.
+#[component]
+fn Candidates() -> impl IntoView {
+    let app = expect_context::<App>();
+    let found = Memo::new(move |_| {
+        let mut found = detect(&app.dump.get());
+        found.truncate(3);
+        found
+    });
+    let row = move |candidate: Candidate| {
+        let profile = candidate.profile;
+        let mut value = query(&profile);
+        value += &format!("&verdict={}", candidate.verdict.name());
+        view! {
+            <button
+                class="candidate"
+                class:chosen=move || app.profile.get() == profile
+                data-testid="candidate"
+                data-value=value
+                on:click=move |_| app.change_profile(profile)
+            >
+                <b>{describe(&profile)}</b>
+                <span class=format!("verdict {}", candidate.verdict.name())>{candidate.verdict.name()}</span>
+                <small>{candidate.evidence.join("; ")}</small>
+            </button>
+        }
+    };
+    move || {
+        let found = found.get();
+        (!found.is_empty()).then(|| {
+            view! {
+                <div class="candidates">
+                    <h2>"What it is"</h2>
+                    {found.into_iter().map(row).collect_view()}
+                </div>
+            }
+        })
     }
 }
 

@@ -91,8 +91,11 @@ fn FieldRow(index: usize, note: Note, lit: RwSignal<Option<usize>>) -> impl Into
         0..=8 => format!("{:0width$b}", note.raw),
         _ => grouped(note.raw),
     };
-    let set = note.bits.into_iter().filter(|bit| bit.set);
+    let set: Vec<_> = note.bits.into_iter().filter(|bit| bit.set).collect();
+    // Bits that are set explain themselves.
+    let text = set.is_empty().then(|| view! { <p>{note.text}</p> });
     let set = set
+        .into_iter()
         .map(|bit| view! { <p><b>{bit.name}</b> ": " {bit.doc}</p> })
         .collect_view();
     view! {

@@ -1,0 +1,245 @@
+//! What a dump may be: every format at every width, ranked by evidence.
+//!
+//! Evidence is counted in bits: a frame whose check holds is worth its checksum, once for each
+//! distinct frame, since a still shaft repeats itself; what does not fit counts against. One
+//! frame alone is never certain: a CRC-6 holds by chance once in 64 frames, a CRC-8 once in 256.
+
+use crate::{
+    bits,
+    decode::{Decoded, Decoder, Frame},
+    dump::{self, Dump},
+    format::{Format, Medium, rs485::Command},
+    layout::Role,
+    profile::Profile,
+    record::Record,
+};
+use alloc::{
+    collections::BTreeSet,
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
+
+/// Text beyond this is not looked at: what has not shown by then will not.
+const ENOUGH_TEXT: usize = 20_000;
+/// Bits of evidence for each verdict, and the lead that sets a candidate apart.
+const CERTAIN: i32 = 40;
+const LIKELY: i32 = 8;
+const LEAD: i32 = 4;
+/// Against: a frame that fails, a byte of no frame, a width whose top bit was never seen set.
+const FAILS: i32 = -6;
+const SKIPPED: i32 = -3;
+const UNUSED_BIT: i32 = -3;
+/// For: an identity that names the width.
+const NAMED: i32 = 6;
+
+/// How sure a detection is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Several frames say so, and nothing else fits.
+    Certain,
+    /// It fits better than anything else.
+    Likely,
+    /// Something else fits as well.
+    Ambiguous,
+    /// Hardly more than chance.
+    Unlikely,
+}
+
+impl Verdict {
+    /// The word for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Certain => "certain",
+            Self::Likely => "likely",
+            Self::Ambiguous => "ambiguous",
+            Self::Unlikely => "unlikely",
+        }
+    }
+}
+
+/// Something that a dump may be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// How to read it.
+    pub profile: Profile,
+    /// How sure that is.
+    pub verdict: Verdict,
+    /// Why, in sentences.
+    pub evidence: Vec<String>,
+    score: i32,
+}
+
+impl Candidate {
+    /// The record of a candidate: its profile, verdict and evidence.
+    #[must_use]
+    pub fn record(&self) -> Record {
+        self.profile
+            .record()
+            .with("verdict", self.verdict.name())
+            .with("evidence", self.evidence.clone())
+    }
+}
+
+/// Ranks what a pasted dump may be, best first; nothing where more speaks against than for.
+///
+/// ```
+/// use encoderscope::{detect::{Verdict, detect}, format::Format};
+/// let found = detect("1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5");
+/// assert_eq!((found[0].profile.format, found[0].profile.angle_bits), (Format::T485, 23));
+/// ```
+#[must_use]
+pub fn detect(text: &str) -> Vec<Candidate> {
+    let end = (0..=ENOUGH_TEXT.min(text.len()))
+        .rev()
+        .find(|at| text.is_char_boundary(*at));
+    let text = &text[..end.unwrap_or(0)];
+    let dumps = [
+        dump::parse(text, Medium::Bytes),
+        dump::parse(text, Medium::Bits),
+    ];
+    let mut found: Vec<Candidate> = hypotheses()
+        .filter_map(|profile| {
+            let dump = match profile.format.medium() {
+                Medium::Bytes => &dumps[0],
+                Medium::Bits => &dumps[1],
+            };
+            weigh(profile, dump)
+        })
+        .collect();
+    found.retain(|candidate| candidate.score > 0);
+    found.sort_by_key(|candidate| -candidate.score);
+    let best = found.first().map_or(0, |candidate| candidate.score);
+    let rivals = found
+        .iter()
+        .filter(|candidate| best - candidate.score < LEAD)
+        .count();
+    for candidate in &mut found {
+        if best - candidate.score < LEAD && rivals > 1 {
+            candidate.verdict = Verdict::Ambiguous;
+            candidate
+                .evidence
+                .push(format!("{} other readings fit as well", rivals - 1));
+        } else if candidate.score < best {
+            candidate.verdict = Verdict::Unlikely;
+        }
+    }
+    found
+}
+
+/// Every profile that is tried.
+fn hypotheses() -> impl Iterator<Item = Profile> {
+    let t485 = [17, 23].map(|angle_bits| Profile {
+        angle_bits,
+        ..Format::T485.default_profile()
+    });
+    let native = || (16..=24).flat_map(|angle| [0, 16].map(|turns| (angle, turns)));
+    let rs485 = native().flat_map(|(angle_bits, turns_bits)| {
+        Command::ALL
+            .iter()
+            .filter(|command| !command.changes_encoder())
+            .map(move |command| Profile {
+                angle_bits,
+                turns_bits,
+                command: *command,
+                ..Format::Rs485.default_profile()
+            })
+    });
+    let biss = native().flat_map(|(angle_bits, turns_bits)| {
+        [0, 6].map(|status_bits| Profile {
+            angle_bits,
+            turns_bits,
+            status_bits,
+            ..Format::BissC.default_profile()
+        })
+    });
+    t485.into_iter().chain(rs485).chain(biss)
+}
+
+/// Tries one profile; `None` where no frame passes.
+fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
+    let decoder = Decoder::new(profile).ok()?;
+    let mut distinct = BTreeSet::new();
+    let mut top_bit = false;
+    let mut named = false;
+    let mut check_bits = 0;
+    let summary = decoder.dump(dump, &mut |decoded| {
+        let Decoded::Frame(frame) = decoded else {
+            return;
+        };
+        if !frame.ok() {
+            return;
+        }
+        let values = frame.values();
+        top_bit |= values
+            .angle
+            .is_some_and(|angle| bits::bit(angle, profile.angle_bits - 1));
+        named |= matches!(
+            (values.enid, profile.angle_bits),
+            (Some(0x17), 23) | (Some(0x11), 17)
+        );
+        check_bits = check_width(&frame);
+        distinct.insert(frame.bits.bytes().to_vec());
+    });
+    let good = summary.frames - summary.bad;
+    let count = i32::try_from(distinct.len()).unwrap_or(i32::MAX / 64);
+    if count == 0 {
+        return None;
+    }
+    let against =
+        |each: i32, count: u64| each.saturating_mul(i32::try_from(count).unwrap_or(i32::MAX));
+    let mut evidence = Vec::new();
+    evidence.push(format!(
+        "the check holds in {good} of {} frames",
+        summary.frames
+    ));
+    if distinct.len() as u64 != good {
+        evidence.push(format!("{count} of them are distinct"));
+    }
+    evidence.push(format!(
+        "by chance 1 in 2^{}",
+        count.saturating_mul(check_bits)
+    ));
+    let mut score = count.saturating_mul(check_bits);
+    score = score.saturating_add(against(FAILS, summary.bad));
+    score = score.saturating_add(against(SKIPPED, summary.skipped));
+    if summary.skipped > 0 {
+        evidence.push(format!("{} bytes belong to no frame", summary.skipped));
+    }
+    if !top_bit {
+        score += UNUSED_BIT;
+        evidence
+            .push("the top bit of the angle was never seen set: it may be narrower".to_string());
+    }
+    if named {
+        score += NAMED;
+        evidence.push(format!(
+            "the encoder identity says {} bits",
+            profile.angle_bits
+        ));
+    }
+    let verdict = match score {
+        _ if count > 1 && score >= CERTAIN => Verdict::Certain,
+        LIKELY.. => Verdict::Likely,
+        _ => Verdict::Unlikely,
+    };
+    Some(Candidate {
+        profile,
+        verdict,
+        evidence,
+        score,
+    })
+}
+
+/// Bits of a frame that are right by chance rarely: its checks, and a control field's pattern.
+fn check_width(frame: &Frame<'_>) -> i32 {
+    let fields = frame.layout.fields().filter(|field| match field.row.role {
+        Role::Crc | Role::Parity => true,
+        Role::Framing => {
+            field.row.constant.is_some() && frame.layout.shape.profile.format == Format::T485
+        }
+        _ => false,
+    });
+    fields.map(|field| field.width as i32).sum()
+}
