@@ -8,7 +8,6 @@ if ! command -v chromium >/dev/null || ! command -v chromedriver >/dev/null; the
   apt_get "Chromium, which runs the tests" chromium chromium-driver
 fi
 export CHROMEDRIVER=${CHROMEDRIVER:-/usr/bin/chromedriver}
-export RUSTFLAGS="${RUSTFLAGS:-}"
 
 say "format"
 cargo fmt --check

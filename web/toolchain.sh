@@ -52,9 +52,9 @@ fi
 
 wasm_cargo() {
   if [ $wasm_target_dir = target ]; then
-    cargo "$@" --target $wasm_target
+    CARGO_BUILD_TARGET=$wasm_target cargo "$@"
   else
-    PATH=/usr/bin:$PATH /usr/bin/cargo "$@" --target $wasm_target --target-dir $wasm_target_dir
+    PATH=/usr/bin:$PATH CARGO_BUILD_TARGET=$wasm_target CARGO_TARGET_DIR=$wasm_target_dir /usr/bin/cargo "$@"
   fi
 }
 

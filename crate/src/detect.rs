@@ -9,7 +9,7 @@ use crate::{
     decode::{Decoded, Decoder, Frame},
     dump::{self, Dump},
     format::{Format, Medium, rs485::Command},
-    layout::Role,
+    layout::{Role, Shape},
     profile::Profile,
     record::Record,
 };
@@ -27,11 +27,14 @@ const CERTAIN: i32 = 40;
 const LIKELY: i32 = 8;
 const LEAD: i32 = 4;
 /// Against: a frame that fails, a byte of no frame, a width whose top bit was never seen set.
-const FAILS: i32 = -6;
-const SKIPPED: i32 = -3;
-const UNUSED_BIT: i32 = -3;
-/// For: an identity that names the width.
+const FAILS: i32 = 6;
+const SKIPPED: i32 = 1;
+const UNUSED_BIT: i32 = 3;
+/// For: an identity that names the width, a preamble that is the profile's own.
 const NAMED: i32 = 6;
+const PREAMBLE: i32 = 4;
+/// Less than this is chance.
+const CHANCE: i32 = 3;
 
 /// How sure a detection is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +111,7 @@ pub fn detect(text: &str) -> Vec<Candidate> {
             weigh(profile, dump)
         })
         .collect();
-    found.retain(|candidate| candidate.score > 0);
+    found.retain(|candidate| candidate.score > CHANCE);
     found.sort_by_key(|candidate| -candidate.score);
     let best = found.first().map_or(0, |candidate| candidate.score);
     let rivals = found
@@ -163,6 +166,7 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     let mut distinct = BTreeSet::new();
     let mut top_bit = false;
     let mut named = false;
+    let mut preamble = false;
     let mut check_bits = 0;
     let summary = decoder.dump(dump, &mut |decoded| {
         let Decoded::Frame(frame) = decoded else {
@@ -179,6 +183,12 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
             (values.enid, profile.angle_bits),
             (Some(0x17), 23) | (Some(0x11), 17)
         );
+        preamble |= profile.format == Format::BissC
+            && frame.layout.shape
+                == Shape {
+                    tail: frame.layout.shape.tail,
+                    ..Shape::of(profile)
+                };
         check_bits = check_width(&frame);
         distinct.insert(frame.bits.bytes().to_vec());
     });
@@ -187,8 +197,6 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     if count == 0 {
         return None;
     }
-    let against =
-        |each: i32, count: u64| each.saturating_mul(i32::try_from(count).unwrap_or(i32::MAX));
     let mut evidence = Vec::new();
     evidence.push(format!(
         "the check holds in {good} of {} frames",
@@ -201,16 +209,22 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         "by chance 1 in 2^{}",
         count.saturating_mul(check_bits)
     ));
-    let mut score = count.saturating_mul(check_bits);
-    score = score.saturating_add(against(FAILS, summary.bad));
-    score = score.saturating_add(against(SKIPPED, summary.skipped));
+    let proved = count.saturating_mul(check_bits);
+    // A damaged dump is still a dump of its format: what is good in it keeps a quarter.
+    let against = summary.bad * FAILS as u64 + summary.skipped * SKIPPED as u64;
+    let against = i32::try_from(against).unwrap_or(i32::MAX);
+    let mut score = proved - against.min(proved / 4 * 3);
     if summary.skipped > 0 {
         evidence.push(format!("{} bytes belong to no frame", summary.skipped));
     }
     if !top_bit {
-        score += UNUSED_BIT;
+        score -= UNUSED_BIT;
         evidence
             .push("the top bit of the angle was never seen set: it may be narrower".to_string());
+    }
+    if preamble {
+        score += PREAMBLE;
+        evidence.push("the lines begin with the preamble of these encoders".to_string());
     }
     if named {
         score += NAMED;

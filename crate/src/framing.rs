@@ -132,8 +132,21 @@ type Sink<'s> = dyn FnMut(Piece<'_>) + 's;
 /// What to do with the bytes at hand.
 enum Step<'d> {
     Wait,
-    Frame(&'d Resolved, bool),
+    Frame(&'d Resolved, Trust),
     Skip(usize, Why),
+}
+
+/// How far a frame can be trusted to begin where it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Trust {
+    /// It passes, and its phase leads clearly.
+    Sure,
+    /// It passes, but another phase may be the right one.
+    Unsure,
+    /// It fails, and frames behind it pass in its phase.
+    Kept,
+    /// It fails, and nothing behind it tells where the next frame begins.
+    Last,
 }
 
 impl<'d> Framer<'d> {
@@ -174,7 +187,8 @@ impl<'d> Framer<'d> {
             let at = from + self.skipped;
             match self.step(at, ending) {
                 Step::Wait => break,
-                Step::Frame(layout, sure) => {
+                Step::Frame(layout, trust) => {
+                    let sure = trust != Trust::Unsure;
                     self.flush(from, self.skipped, sink);
                     let end = at + layout.len / 8;
                     let bytes = &self.buffer[at..end];
@@ -184,12 +198,10 @@ impl<'d> Framer<'d> {
                         bytes,
                         kind: PieceKind::Frame { layout, sure },
                     });
-                    let frame = Bits::of_bytes(bytes);
-                    if layout.holds(frame) {
-                        self.held = sure;
-                        if sure {
-                            self.last = Position::of(layout, &layout.values(frame)).or(self.last);
-                        }
+                    self.held = matches!(trust, Trust::Sure | Trust::Kept);
+                    if trust == Trust::Sure {
+                        let values = layout.values(Bits::of_bytes(bytes));
+                        self.last = Position::of(layout, &values).or(self.last);
                     }
                     from = end;
                     self.skipped = 0;
@@ -230,7 +242,7 @@ impl<'d> Framer<'d> {
             && self.held
             && rest[layout.len / 8 - 1] != 0
         {
-            return Step::Frame(layout, true);
+            return Step::Frame(layout, Trust::Sure);
         }
         let longest = self.decoder.longest();
         let open = matches!(ending, Ending::Open);
@@ -269,15 +281,22 @@ impl<'d> Framer<'d> {
         }
         match (own, other) {
             (Some(own), other) if other.is_none_or(|(_, score)| own.score >= score) => {
-                let Some(layout) = first.filter(|_| passes || !own.visits(1)) else {
-                    return self.skip(rest, 1);
+                let Some(layout) = first else {
+                    return Step::Skip(1, Why::NoFrame);
                 };
                 let lead = other.is_none_or(|(_, score)| own.score - score >= LEAD);
-                let alone = !passes && own.passes == 0 && layout.len / 8 != rest.len();
-                if alone {
-                    return self.skip(rest, 1);
+                if passes {
+                    let sure = lead && own.score >= ENOUGH;
+                    Step::Frame(layout, if sure { Trust::Sure } else { Trust::Unsure })
+                } else if own.visits(1) {
+                    Step::Skip(1, Why::Request)
+                } else if own.passes > 0 {
+                    Step::Frame(layout, Trust::Kept)
+                } else if self.held || layout.len / 8 == rest.len() {
+                    Step::Frame(layout, Trust::Last)
+                } else {
+                    Step::Skip(1, Why::NoFrame)
                 }
-                Step::Frame(layout, lead && own.score >= ENOUGH)
             }
             (_, Some((shift, _))) => self.skip(rest, shift),
             (_, None) => self.nothing(rest, anchored),
@@ -286,8 +305,9 @@ impl<'d> Framer<'d> {
 
     /// No phase of the next frame passes.
     fn nothing(&self, rest: &[u8], anchored: bool) -> Step<'d> {
+        let follows = anchored || self.skipped == 0;
         if let Some(layout) = self.decoder.layout(rest[0])
-            && anchored
+            && follows
             && rest.len() < layout.len / 8
         {
             let need = layout.len / 8;

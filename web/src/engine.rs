@@ -36,6 +36,10 @@ struct State {
     tally: Tally,
     /// The page has drawn and waits for a snapshot.
     wanted: bool,
+    /// What the page has asked for and nobody has begun.
+    asked: Option<ToEngine>,
+    /// Something is being opened or closed.
+    busy: bool,
     /// Counts openings, so that what belongs to an earlier one can be told.
     generation: u32,
 }
@@ -81,6 +85,8 @@ impl Engine {
                 run: None,
                 tally: Tally::new(now()),
                 wanted: true,
+                asked: None,
+                busy: false,
                 generation: 0,
             })),
         };
@@ -100,30 +106,33 @@ impl Engine {
 
     /// Does what the page asks.
     pub fn handle(&self, message: ToEngine) {
-        match message {
-            ToEngine::Open { port, profile } => {
-                let engine = self.clone();
-                wasm_bindgen_futures::spawn_local(async move {
-                    engine.open(port, &profile).await;
-                });
-            }
-            ToEngine::Demo { profile } => {
-                let engine = self.clone();
-                wasm_bindgen_futures::spawn_local(async move {
-                    engine.demo(&profile).await;
-                });
-            }
-            ToEngine::Close => {
-                let engine = self.clone();
-                wasm_bindgen_futures::spawn_local(async move {
-                    engine.close().await;
-                    engine.set_link(Link::Closed);
-                });
-            }
-            ToEngine::Next => {
-                let mut state = self.state.borrow_mut();
-                state.wanted = true;
-                state.pump();
+        let mut state = self.state.borrow_mut();
+        if message == ToEngine::Next {
+            state.wanted = true;
+            return state.pump();
+        }
+        // Opening and closing take a while and must not overlap; of what is asked meanwhile,
+        // only the last counts.
+        let idle = state.asked.is_none() && !state.busy;
+        state.asked = Some(message);
+        if idle {
+            state.busy = true;
+            let engine = self.clone();
+            wasm_bindgen_futures::spawn_local(async move { engine.work().await });
+        }
+    }
+
+    async fn work(&self) {
+        loop {
+            let Some(message) = self.state.borrow_mut().asked.take() else {
+                self.state.borrow_mut().busy = false;
+                return;
+            };
+            self.close().await;
+            match message {
+                ToEngine::Open { port, profile } => self.open(port, &profile).await,
+                ToEngine::Demo { profile } => self.demo(&profile),
+                ToEngine::Close | ToEngine::Next => self.set_link(Link::Closed),
             }
         }
     }
@@ -135,12 +144,12 @@ impl Engine {
         state.pump();
     }
 
-    /// Closes what is open; returns the generation of what comes next.
-    async fn close(&self) -> u32 {
-        let (run, generation) = {
+    /// Closes what is open.
+    async fn close(&self) {
+        let run = {
             let mut state = self.state.borrow_mut();
             state.generation += 1;
-            (state.run.take(), state.generation)
+            state.run.take()
         };
         if let Some(Run {
             wire: Wire::Port { port, reader },
@@ -153,7 +162,6 @@ impl Engine {
             }
             port.close().await;
         }
-        generation
     }
 
     fn session(profile: &str, interval: Micros) -> Result<(Session, Decoder), String> {
@@ -163,11 +171,7 @@ impl Engine {
         Ok((session, decoder))
     }
 
-    async fn demo(&self, profile: &str) {
-        let generation = self.close().await;
-        if self.state.borrow().generation != generation {
-            return;
-        }
+    fn demo(&self, profile: &str) {
         let made = Self::session(profile, DEMO_INTERVAL).and_then(|(session, decoder)| {
             let shaft = Shaft {
                 start: 4.85,
@@ -204,23 +208,17 @@ impl Engine {
     }
 
     async fn open(&self, port: PortId, profile: &str) {
-        let generation = self.close().await;
         let (session, decoder) = match Self::session(profile, 0) {
             Ok(made) => made,
             Err(reason) => return self.set_link(Link::Refused { reason }),
         };
         self.set_link(Link::Opening);
-        let opened = Port::open(port, decoder.profile().baud).await;
-        if self.state.borrow().generation != generation {
-            if let Ok(port) = opened {
-                port.close().await;
-            }
-            return;
-        }
-        match opened {
+        match Port::open(port, decoder.profile().baud).await {
             Ok(port) => {
                 self.start(session, decoder, Wire::Port { port, reader: None });
-                self.read(generation).await;
+                let engine = self.clone();
+                let generation = self.state.borrow().generation;
+                wasm_bindgen_futures::spawn_local(async move { engine.read(generation).await });
             }
             Err(error) => {
                 let (name, message) = error_text(&error);

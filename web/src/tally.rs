@@ -156,6 +156,7 @@ impl Tally {
             self.counts.good += 1.0;
             self.last_good = Some(bytes.into());
             self.good_times.push_back(now);
+            self.forget(now);
             self.latencies.push_back(latency);
             if self.latencies.len() > LATENCIES {
                 self.latencies.pop_front();
@@ -178,9 +179,8 @@ impl Tally {
         self.log.truncate(LOG);
     }
 
-    /// What the page shows; the link's state is the caller's.
-    pub fn snapshot(&mut self, now: Micros) -> Snapshot {
-        self.changed = false;
+    /// Forgets good frames that the rate no longer counts.
+    fn forget(&mut self, now: Micros) {
         while self
             .good_times
             .front()
@@ -188,6 +188,12 @@ impl Tally {
         {
             self.good_times.pop_front();
         }
+    }
+
+    /// What the page shows; the link's state is the caller's.
+    pub fn snapshot(&mut self, now: Micros) -> Snapshot {
+        self.changed = false;
+        self.forget(now);
         let over = (now - self.opened).clamp(1, RATE_OVER) as f64 / 1e6;
         let mut sorted: Vec<Micros> = self.latencies.iter().copied().collect();
         sorted.sort_unstable();

@@ -133,6 +133,26 @@ fn a_wrong_crc_among_good_frames_is_one_bad_frame() {
 }
 
 #[test]
+fn a_wrong_crc_at_the_end_is_a_bad_frame_and_what_follows_is_short() {
+    for parameters in ["format=t485", "format=rs485"] {
+        let decoder = decoder(parameters);
+        let frames = stream(&decoder, 4, 700.3, 0.003);
+        let len = frames[0].len();
+        let mut bytes = frames.concat();
+        bytes[3 * len + 4] ^= 1;
+        bytes.extend(&frames[0][..2]);
+        let found = framed(&decoder, &[&bytes]);
+        let short = Stretch::Skip(4 * len as u64, frames[0][..2].into(), format!("2 of {len}"));
+        assert_eq!(good(&found).len(), 3, "{parameters}: {found:?}");
+        assert!(
+            matches!(found[3], Stretch::Frame(_, _, false)),
+            "{parameters}: {found:?}"
+        );
+        assert_eq!(found[4..], [short], "{parameters}");
+    }
+}
+
+#[test]
 fn garbage_and_requests_between_frames_are_skipped() {
     let decoder = decoder("format=t485");
     let frames = stream(&decoder, 6, 41.7, 0.02);

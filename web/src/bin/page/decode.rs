@@ -167,8 +167,10 @@ const fn example(format: Format) -> &'static str {
         Format::T485 => {
             "1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"
         }
-        Format::Rs485 => "ff fe 12 34 56 60 bb\n",
-        Format::BissC => "82 ff fe 80 00 01 90 88\n",
+        Format::Rs485 => "00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n",
+        Format::BissC => {
+            "82 00 05 55 a3 c1 c0 d4\n82 00 05 56 b0 f7 c0 48\n82 ff fe 80 00 01 90 88\n"
+        }
     }
 }
 
