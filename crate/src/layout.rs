@@ -221,7 +221,7 @@ pub enum Piece {
     Include(&'static Layout),
 }
 
-/// A layout table, made by [`layout!`].
+/// A layout table, made by `layout!`.
 #[derive(Debug)]
 pub struct Layout {
     /// What the frame is.
