@@ -21,7 +21,7 @@ use alloc::{
 };
 
 /// Text beyond this is not looked at: what has not shown by then will not.
-const ENOUGH_TEXT: usize = 20_000;
+const ENOUGH_TEXT: usize = 8_000;
 /// Bits of evidence for each verdict, and the lead that sets a candidate apart.
 const CERTAIN: i32 = 40;
 const LIKELY: i32 = 8;

@@ -53,18 +53,17 @@ impl Dump {
 #[must_use]
 pub fn parse(text: &str, medium: Medium) -> Dump {
     let mut dump = Dump::default();
-    let bytes_in_binary = medium == Medium::Bytes
-        && text
-            .lines()
-            .flat_map(tokens_of)
-            .all(|token| token.binary().is_some_and(|digits| digits.len() == 8));
+    let all: Vec<Token<'_>> = text.lines().flat_map(tokens_of).collect();
+    let binary = match medium {
+        Medium::Bytes => {
+            let octet = |token: &Token<'_>| token.binary().is_some_and(|digits| digits.len() == 8);
+            all.iter().all(octet)
+        }
+        Medium::Bits => is_binary(&all),
+    };
     let mut at = 0;
     for line in text.split('\n') {
         let tokens: Vec<Token<'_>> = tokens_of(line).collect();
-        let binary = match medium {
-            Medium::Bytes => bytes_in_binary,
-            Medium::Bits => is_binary(&tokens),
-        };
         let mut bits = BitString::default();
         for token in &tokens {
             if !token.read(binary, &mut bits) {
@@ -99,15 +98,15 @@ fn tokens_of(line: &str) -> impl Iterator<Item = Token<'_>> {
         })
 }
 
-/// A line is binary when it has nothing but 0 and 1 and does not look like hexadecimal pairs.
+/// A dump is binary when it has nothing but 0 and 1 and does not look like hexadecimal pairs.
 fn is_binary(tokens: &[Token<'_>]) -> bool {
     let digits: Option<usize> = tokens
         .iter()
         .map(|token| token.binary().map(str::len))
         .sum();
     let pairs = tokens.iter().all(|token| token.text.len() == 2);
-    digits.is_some_and(|digits| digits >= 8) && !pairs
-        || tokens.iter().any(|token| token.text.starts_with("0b"))
+    let prefixed = tokens.iter().any(|token| token.text.starts_with("0b"));
+    digits.is_some_and(|digits| digits >= 8 && !pairs || prefixed)
 }
 
 impl<'a> Token<'a> {

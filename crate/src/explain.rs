@@ -3,7 +3,7 @@
 use crate::{
     bits::{self, Bits, Span},
     layout::{Active, Class, Field, Resolved, Role},
-    reading::{Checked, Fault, degrees},
+    reading::{Checked, Fault},
 };
 use alloc::{
     format,
@@ -102,10 +102,10 @@ fn text(field: &Field, raw: u64, bits: Bits<'_>) -> String {
     match field.row.role {
         Role::Turns => format!("{} turns", grouped(raw)),
         Role::Angle => format!(
-            "{} of {} → {:.4}°",
+            "{} of {} → {}°",
             grouped(raw),
             grouped(u64::try_from(bits::codes(field.width)).unwrap_or(u64::MAX)),
-            degrees(raw, field.width)
+            degrees_text(raw, field.width, 4)
         ),
         Role::Error if asserted => "error: the position is not valid".into(),
         Role::Error => "no error: the position is valid".into(),
@@ -158,6 +158,24 @@ fn check_text(field: &Field, received: u64, bits: Bits<'_>) -> String {
             "{verdict}: computed 0x{:02X}, {name}, over {len} bits",
             checked.expected
         )
+    }
+}
+
+/// An angle in degrees with `places` digits behind the point (at most 12), cut off, not rounded:
+/// the last count of a turn is never 360°.
+///
+/// ```
+/// use encoderscope::explain::degrees_text;
+/// assert_eq!(degrees_text(0xff_ffff, 24, 4), "359.9999");
+/// ```
+#[must_use]
+pub fn degrees_text(angle: u64, angle_bits: u32, places: u32) -> String {
+    let unit = 10u128.pow(places.min(12));
+    let scaled = u128::from(angle) * 360 * unit / bits::codes(angle_bits);
+    let (whole, part) = (scaled / unit, scaled % unit);
+    match places.min(12) as usize {
+        0 => whole.to_string(),
+        width => format!("{whole}.{part:0width$}"),
     }
 }
 

@@ -124,6 +124,8 @@ pub struct Framer<'d> {
     skipped: usize,
     why: Why,
     held: bool,
+    /// Nothing has been skipped since the start of the input or the last sure frame.
+    contiguous: bool,
     last: Option<Position>,
 }
 
@@ -160,6 +162,7 @@ impl<'d> Framer<'d> {
             skipped: 0,
             why: Why::NoFrame,
             held: false,
+            contiguous: true,
             last: None,
         }
     }
@@ -200,6 +203,7 @@ impl<'d> Framer<'d> {
                     });
                     self.held = matches!(trust, Trust::Sure | Trust::Kept);
                     if trust == Trust::Sure {
+                        self.contiguous = true;
                         let values = layout.values(Bits::of_bytes(bytes));
                         self.last = Position::of(layout, &values).or(self.last);
                     }
@@ -215,6 +219,7 @@ impl<'d> Framer<'d> {
                     self.why = why;
                     self.skipped += count;
                     self.held &= why == Why::Request;
+                    self.contiguous &= why == Why::Request;
                 }
             }
         }
@@ -238,9 +243,12 @@ impl<'d> Framer<'d> {
             return Step::Wait;
         }
         let held = self.passing(rest);
+        // A request before its reply may pass as the first byte of a frame.
+        let asks = self.decoder.is_request(rest[0]);
         if let Some(layout) = held
             && self.held
             && rest[layout.len / 8 - 1] != 0
+            && !(asks && (rest.len() == layout.len / 8 || self.passing(&rest[1..]).is_some()))
         {
             return Step::Frame(layout, Trust::Sure);
         }
@@ -249,13 +257,13 @@ impl<'d> Framer<'d> {
         if open && rest.len() < (WINDOW + 2) * (longest + 1) {
             return Step::Wait;
         }
-        self.weigh(rest, at, held.is_some())
+        self.weigh(rest, held.is_some())
     }
 
     /// Decides by the evidence for every phase.
-    fn weigh(&self, rest: &[u8], at: usize, passes: bool) -> Step<'d> {
+    fn weigh(&self, rest: &[u8], passes: bool) -> Step<'d> {
         let first = self.decoder.layout(rest[0]);
-        let anchored = self.held || self.base + at as u64 == 0;
+        let anchored = self.held || self.contiguous;
         let mut own = None;
         if passes || (anchored && first.is_some_and(|layout| layout.len / 8 <= rest.len())) {
             let chain = self.chain(rest, 0, self.last);
@@ -271,7 +279,7 @@ impl<'d> Framer<'d> {
         let mut other: Option<(usize, i32)> = None;
         for shift in 1..self.decoder.longest().min(rest.len()) {
             let visited = own.as_ref().is_some_and(|own| own.visits(shift));
-            if visited || self.passing(&rest[shift..]).is_none() {
+            if visited || self.passing(&rest[shift..]).is_none() || self.is_late(rest, shift) {
                 continue;
             }
             let score = self.chain(rest, shift, self.last).score;
@@ -286,7 +294,7 @@ impl<'d> Framer<'d> {
                 };
                 let lead = other.is_none_or(|(_, score)| own.score - score >= LEAD);
                 if passes {
-                    let sure = lead && own.score >= ENOUGH;
+                    let sure = lead && own.score >= ENOUGH && (self.held || !own.leaps(self.last));
                     Step::Frame(layout, if sure { Trust::Sure } else { Trust::Unsure })
                 } else if own.visits(1) {
                     Step::Skip(1, Why::Request)
@@ -297,6 +305,15 @@ impl<'d> Framer<'d> {
                 } else {
                     Step::Skip(1, Why::NoFrame)
                 }
+            }
+            // The frames only repeat one another, so that the zeros in front of another phase
+            // prove nothing against the phase that the input began with.
+            (Some(own), Some((shift, _)))
+                if passes && own.only_repeats() && self.last.is_none() =>
+            {
+                first.map_or(self.skip(rest, shift), |layout| {
+                    Step::Frame(layout, Trust::Unsure)
+                })
             }
             (_, Some((shift, _))) => self.skip(rest, shift),
             (_, None) => self.nothing(rest, anchored),
@@ -336,6 +353,15 @@ impl<'d> Framer<'d> {
         let layout = self.decoder.layout(*bytes.first()?)?;
         let frame = bytes.get(..layout.len / 8)?;
         layout.holds(Bits::of_bytes(frame)).then_some(layout)
+    }
+
+    /// Whether the frame at `shift` is the one a byte before it, read one byte late: of phases
+    /// that pass together the one with the zero in front is right.
+    fn is_late(&self, rest: &[u8], shift: usize) -> bool {
+        let ends = |layout: &Resolved| rest.get(shift + layout.len / 8 - 1) == Some(&0);
+        rest[shift - 1] == 0
+            && self.decoder.layout(rest[shift]).is_some_and(ends)
+            && self.passing(&rest[shift - 1..]).is_some()
     }
 
     /// Follows a phase for a window of frames, to the first that fails after one that passes:
@@ -427,6 +453,10 @@ struct Chain<'b> {
     last: Option<Position>,
     status: Option<u8>,
     repeats: i32,
+    distinct: i32,
+    /// The first two positions, and the redundancy of the first frame.
+    opening: [Option<Position>; 2],
+    redundancy: u32,
 }
 
 impl<'b> Chain<'b> {
@@ -438,12 +468,31 @@ impl<'b> Chain<'b> {
             last,
             status: None,
             repeats: 0,
+            distinct: 0,
+            opening: [None; 2],
+            redundancy: 0,
         }
     }
 
     fn plus(mut self, bonus: i32) -> Self {
         self.score += bonus;
         self
+    }
+
+    /// Whether there are several frames, all the same.
+    const fn only_repeats(&self) -> bool {
+        self.distinct == 1 && self.passes > 1
+    }
+
+    /// Whether the first frame leaps away from `last` and back to the frame behind it: a broken
+    /// frame whose short check passes by chance looks like that.
+    fn leaps(&self, last: Option<Position>) -> bool {
+        let far = |from: Option<Position>, to: Option<Position>| {
+            from.zip(to)
+                .is_some_and(|(from, to)| from.distance(to) > 0.25)
+        };
+        let [first, second] = self.opening;
+        self.redundancy < 16 && far(last, first) && far(first, second)
     }
 
     fn visits(&self, at: usize) -> bool {
@@ -461,10 +510,14 @@ impl<'b> Chain<'b> {
                 self.repeats += 1;
                 self.score += REPEATS;
             }
-        } else if frame.last() == Some(&0) {
-            self.score += LATE;
         } else {
-            self.score += layout.redundancy as i32;
+            self.score += match frame.last() {
+                // Once may be chance.
+                Some(0) if self.distinct == 0 => 0,
+                Some(0) => LATE,
+                _ => layout.redundancy as i32,
+            };
+            self.distinct += 1;
         }
         self.frames[self.passes] = (at, frame);
         self.passes += 1;
@@ -476,6 +529,12 @@ impl<'b> Chain<'b> {
         let Some(position) = Position::of(layout, &values) else {
             return;
         };
+        if self.passes <= 2 {
+            self.opening[self.passes - 1] = Some(position);
+        }
+        if self.passes == 1 {
+            self.redundancy = layout.redundancy;
+        }
         if let Some(last) = self.last {
             let distance = position.distance(last);
             if distance > 0.25 {

@@ -181,6 +181,8 @@ pub struct Row {
     pub bits: &'static [StatusBit],
     /// The value it always has.
     pub constant: Option<u64>,
+    /// Bits of its number that are always 0.
+    pub zeros: u64,
     /// How it is computed, for a check field.
     pub check: Option<Check>,
 }
@@ -205,6 +207,7 @@ impl Row {
                 Role::Padding => Some(0),
                 _ => None,
             },
+            zeros: 0,
             check: None,
         }
     }
@@ -382,8 +385,12 @@ impl Resolved {
             len,
             redundancy: fields
                 .iter()
-                .filter(|field| field.cover.is_some() || field.row.constant.is_some())
-                .map(|field| field.width)
+                .map(
+                    |field| match field.cover.is_some() || field.row.constant.is_some() {
+                        true => field.width,
+                        false => field.row.zeros.count_ones(),
+                    },
+                )
                 .sum(),
             fields,
             parts,

@@ -241,7 +241,7 @@ impl Profile {
         };
         range("angle-bits", self.angle_bits, 1, limits.angle)?;
         range("turns-bits", self.turns_bits, 0, limits.turns)?;
-        range("status-bits", self.status_bits, 0, 16)?;
+        range("status-bits", self.status_bits, 0, 8)?;
         range("ack-bits", self.ack_bits, 1, 255)?;
         range("baud", self.baud, 1, 50_000_000)?;
         if self.angle_bits + self.turns_bits > limits.together {

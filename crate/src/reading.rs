@@ -89,7 +89,9 @@ impl Reading {
 /// `angle` counts of `angle_bits` bits per turn, in degrees.
 #[must_use]
 pub fn degrees(angle: u64, angle_bits: u32) -> f64 {
-    angle as f64 * 360.0 / bits::codes(angle_bits) as f64
+    let degrees = angle as f64 * 360.0 / bits::codes(angle_bits) as f64;
+    // Beyond 53 bits the last counts would round up to a full turn.
+    degrees.min(360.0f64.next_down())
 }
 
 /// What is wrong with a frame, and where.
@@ -125,6 +127,11 @@ pub enum FaultKind {
         /// Name of the padding.
         name: &'static str,
     },
+    /// Bits that are always 0 are not.
+    Zeros {
+        /// Name of the field.
+        name: &'static str,
+    },
     /// The frame's place is not certain: another phase of the stream passes its checks as well.
     Ambiguous,
 }
@@ -148,6 +155,7 @@ impl fmt::Display for FaultKind {
                 f,
                 "{name} is not 0: the number is wider than the profile says"
             ),
+            Self::Zeros { name } => write!(f, "bits of {name} that are always 0 are set"),
             Self::Ambiguous => f.write_str(
                 "the check passes, but may do so by chance: where frames begin is not certain",
             ),
@@ -226,6 +234,8 @@ impl Resolved {
                     received: raw,
                 },
             }
+        } else if raw & field.row.zeros != 0 {
+            FaultKind::Zeros { name }
         } else {
             let checked = checked(field, raw, bits).filter(|checked| !checked.ok())?;
             FaultKind::Check { name, checked }

@@ -109,6 +109,8 @@ impl Command {
 layout! {
     /// Turns, where the model counts them, and angle.
     pub static DATA(p) {
+        /// The bits above the turn counter are 0.
+        turns_padding: Padding[p.turns_bits.next_multiple_of(8) - p.turns_bits];
         /// Whole turns; only models M, BM and FM send them.
         turns: Turns[p.turns_bits];
         /// The bits above the angle are 0: the angle is right-aligned in two or three bytes.
@@ -123,7 +125,7 @@ layout! {
     pub static POSITION(p) {
         include DATA;
         /// CRC over all bytes before it.
-        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns");
+        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns_padding");
     }
 }
 
@@ -138,7 +140,7 @@ layout! {
         /// Battery, magnetic field, temperature and speed.
         status: Status[6], bits = STATUS;
         /// CRC over all bytes before it.
-        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns");
+        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns_padding");
     }
 }
 
@@ -149,7 +151,7 @@ layout! {
         /// Revolutions per second × 10, signed.
         speed: Speed[16];
         /// CRC over all bytes before it.
-        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns");
+        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns_padding");
     }
 }
 
@@ -160,7 +162,7 @@ layout! {
         /// Temperature of the chip, degrees Celsius × 10, signed.
         temperature: Temperature[16];
         /// CRC over all bytes before it.
-        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns");
+        crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns_padding");
     }
 }
 

@@ -169,7 +169,7 @@ layout! {
     /// The status field (Tamagawa SF).
     pub static SF(p) {
         /// Errors of the link and of the encoder; the low four bits are 0.
-        status: Status[8], bits = STATUS_FIELD;
+        status: Status[8], bits = STATUS_FIELD, zeros = 0x0f;
     }
 }
 

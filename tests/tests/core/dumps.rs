@@ -45,17 +45,19 @@ fn what_cannot_be_read_is_named_and_the_rest_is_kept() {
 
 #[test]
 fn bit_strings_keep_their_length() {
-    let dump = dump::parse(
-        "1100101010101011111111\n82 00\n0b101 1\n1 0 1 1 0 0 1 0 1",
-        Medium::Bits,
+    let lens = |text: &str| {
+        let dump = dump::parse(text, Medium::Bits);
+        assert_eq!(dump.unread, [], "{text}");
+        let lens = dump.lines.iter().map(|line| line.bits.as_bits().len());
+        (dump.is_bits(), lens.collect::<Vec<_>>())
+    };
+    assert_eq!(
+        lens("1100101010101011111111\n1 0 1 1 0 0 1 0 1"),
+        (true, vec![22, 9])
     );
-    let lens: Vec<_> = dump
-        .lines
-        .iter()
-        .map(|line| (line.bits.as_bits().len(), line.binary))
-        .collect();
-    assert_eq!(lens, [(22, true), (16, false), (4, true), (9, true)]);
-    assert!(!dump.is_bits());
+    assert_eq!(lens("0b101 1\n0b1"), (true, vec![4, 1]));
+    assert_eq!(lens("82 00 0b 80\n00 01 10 11"), (false, vec![32, 32]));
+    assert_eq!(lens("00 01 10 11"), (false, vec![32]));
 }
 
 #[test]

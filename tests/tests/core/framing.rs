@@ -296,3 +296,91 @@ fn what_cannot_be_decided_is_not_called_good() {
     }
     assert!(undecided > 20, "{undecided}");
 }
+
+/// A request in front of each reply: read as the first byte of a frame it passes once in 256.
+#[test]
+fn requests_between_replies_are_never_read_as_their_first_byte() {
+    for (parameters, request) in [
+        ("format=rs485 command=d", 0x64),
+        ("format=rs485 command=1", 0x31),
+        ("format=rs485 command=d turns-bits=0", 0x64),
+        ("format=rs485 command=1 turns-bits=0 angle-bits=16", 0x31),
+        ("format=t485", 0x1a),
+    ] {
+        let decoder = decoder(parameters);
+        let frames = stream(&decoder, 3000, 5.1, 0.0123);
+        let bytes: Vec<u8> = frames
+            .iter()
+            .flat_map(|frame| [&[request], &frame[..]].concat())
+            .collect();
+        let found = framed(&decoder, &[&bytes]);
+        let (right, wrong) = score(&found, &frames);
+        assert_eq!(wrong, 0, "{parameters}");
+        assert!(right >= 2970, "{parameters}: {right}");
+    }
+}
+
+/// While the shaft stands still, a true CRC of 0 looks like the phase one byte late.
+#[test]
+fn a_still_shaft_whose_crc_is_zero_is_never_read_wrong_from_the_start() {
+    for parameters in [
+        "format=rs485 command=d turns-bits=0 angle-bits=23",
+        "format=rs485 command=d",
+    ] {
+        let decoder = decoder(parameters);
+        let mut seen = 0;
+        for angle in 0..20_000 {
+            let values = Values {
+                turns: Some(5),
+                angle: Some(0x19_0000 + angle),
+                status: Some(4),
+                ..Values::default()
+            };
+            let frame = decoder.main_layout().encode(&values).into_bytes();
+            if frame.last() != Some(&0) {
+                continue;
+            }
+            let found = framed(&decoder, &[&frame.repeat(12)]);
+            assert!(
+                good(&found).iter().all(|bytes| *bytes == frame),
+                "{frame:02x?}: {found:02x?}"
+            );
+            seen += 1;
+        }
+        assert!(seen > 40, "{parameters}: {seen}");
+    }
+}
+
+#[test]
+fn a_log_of_requests_alone_has_no_angle() {
+    let decoder = decoder("format=t485");
+    for request in [0x02, 0x8a, 0x92, 0x1a, 0x32, 0xba, 0xc2, 0x62, 0xea] {
+        for count in 1..70 {
+            let found = framed(&decoder, &[&vec![request; count]]);
+            // Four equal bytes are a whole EEPROM frame; none holds an angle.
+            let angles = good(&found)
+                .into_iter()
+                .filter_map(|bytes| decoder.frame(bytes)?.values().angle);
+            assert_eq!(angles.count(), 0, "{count} of {request:02x}: {found:02x?}");
+        }
+    }
+}
+
+/// A stray zero byte makes a broken frame whose CRC passes by chance, with good ones behind it.
+#[test]
+fn a_broken_frame_does_not_borrow_the_evidence_of_those_behind_it() {
+    let decoder = decoder("format=rs485 command=d");
+    let mut dumps = 0;
+    let mut wrong = 0;
+    for start in 0..40 {
+        let frames = stream(&decoder, 14, 5.1 + f64::from(start) * 0.017, 0.000_003);
+        for at in 7..12 * 7 {
+            let mut bytes = frames.concat();
+            bytes.insert(at, 0);
+            let found = framed(&decoder, &[&bytes]);
+            wrong += usize::from(score(&found, &frames).1 > 0);
+            dumps += 1;
+        }
+    }
+    assert!(wrong * 1000 <= dumps, "{wrong} of {dumps}");
+}
