@@ -9,12 +9,17 @@ if ! command -v chromium >/dev/null || ! command -v chromedriver >/dev/null; the
 fi
 export CHROMEDRIVER=${CHROMEDRIVER:-/usr/bin/chromedriver}
 
+for tool in fmt clippy; do
+  cargo $tool --version >/dev/null 2>&1 ||
+    need "cargo $tool is missing" "rustup component add rustfmt clippy"
+done
+
 say "format"
 cargo fmt --check
 
 say "lints"
 cargo clippy -q -p encoderscope -p encoderscope-tests --all-targets -- -D warnings
-wasm_cargo clippy -q -p encoderscope-web --bins -- -D warnings
+wasm_clippy -q -p encoderscope-web --bins -- -D warnings
 RUSTDOCFLAGS="-D warnings" cargo doc -q --no-deps -p encoderscope
 
 say "the core, native"

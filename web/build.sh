@@ -16,8 +16,9 @@ features=(--enable-bulk-memory --enable-multivalue --enable-mutable-globals
 bind() {
   local from=$built/$1.wasm to=web/pkg/$2_bg.wasm
   [ "$to" -nt "$from" ] && return
-  wasm-bindgen --target web --no-typescript --out-dir web/pkg --out-name "$2" "$from"
-  npx wasm-opt "${features[@]}" -O3 "$to" -o "$to"
+  wasm-bindgen --target web --no-typescript --out-dir web/pkg/new --out-name "$2" "$from"
+  npx wasm-opt "${features[@]}" -O3 "web/pkg/new/$2_bg.wasm" -o "web/pkg/new/$2_bg.wasm"
+  mv web/pkg/new/* web/pkg
 }
 mkdir -p web/pkg
 bind page page

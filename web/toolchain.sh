@@ -16,7 +16,8 @@ apt_get() { # what for, packages
 }
 
 command -v cargo >/dev/null || need "cargo is missing" "curl https://sh.rustup.rs -sSf | sh"
-command -v node >/dev/null || need "Node.js 20 or newer is missing" "apt-get install nodejs npm"
+node -e 'process.exit(parseInt(process.versions.node) < 20)' 2>/dev/null ||
+  need "Node.js 20 or newer is missing" "see https://nodejs.org/en/download"
 command -v cc >/dev/null || apt_get "a C linker" gcc libc6-dev
 
 wasm_target=wasm32-unknown-unknown
@@ -49,6 +50,15 @@ else
   say "adding the target $wasm_target"
   timeout 120 rustup target add $wasm_target || debian_wasm
 fi
+
+# Debian's Rust comes without clippy.
+wasm_clippy() {
+  if [ $wasm_target_dir = target ]; then
+    wasm_cargo clippy "$@"
+  else
+    echo "Not run: the lints of the page, because Debian's Rust for the browser has no clippy."
+  fi
+}
 
 wasm_cargo() {
   if [ $wasm_target_dir = target ]; then

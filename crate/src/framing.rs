@@ -80,6 +80,8 @@ pub enum Why {
     Request,
     /// No check holds here.
     NoFrame,
+    /// It came without a request.
+    Unasked,
     /// The input ends inside a frame; bytes, or bits for bit strings.
     Truncated {
         /// What there is.
@@ -94,6 +96,7 @@ impl fmt::Display for Why {
         match self {
             Self::Request => f.write_str("request"),
             Self::NoFrame => f.write_str("no frame"),
+            Self::Unasked => f.write_str("came unasked"),
             Self::Truncated { have, need } => write!(f, "{have} of {need}"),
         }
     }

@@ -9,6 +9,11 @@
 //! same byte as the request. The first replies are therefore awaited until the line is quiet:
 //! one byte more than a reply, the request in front and a check that holds behind it are an
 //! echo. After three replies that agree the session knows, and no longer waits.
+//!
+//! A reply is only sure when it comes alone: the line must be quiet before the first request,
+//! and what comes unasked, or in excess of a reply, makes the session wait for silence. A
+//! reply that is missing may still be on its way, so the next one is not sure, and the
+//! patience grows until replies and requests pair up again.
 
 use crate::{
     bits::Bits,
@@ -25,7 +30,9 @@ pub type Micros = u64;
 /// Longest a USB adapter holds bytes back, with room: FTDI's latency timer is 16 ms.
 const QUIET: Micros = 20_000;
 /// How long a reply may take beyond its own bytes: request and reply may each be held back.
+/// It doubles with every reply that is missing, up to the longest.
 const TIMEOUT: Micros = 100_000;
+const LONGEST_TIMEOUT: Micros = 800_000;
 /// Replies that must agree before echo is taken as known.
 const AGREE: u8 = 3;
 /// More than any reply: the line is talking without being asked.
@@ -103,11 +110,14 @@ impl core::error::Error for Refusal {}
 
 #[derive(Clone, Copy, Debug)]
 enum State {
+    /// Nothing has been asked yet.
+    Fresh,
     /// The next request goes out at this time.
     Idle(Micros),
     /// A request is out since `sent`; judged at `until` whatever has come.
     Waiting { sent: Micros, until: Micros },
-    /// Something went wrong: wait until nothing has come for a while.
+    /// Before the first request and when something went wrong: wait until nothing has come for
+    /// a while.
     Draining(Micros),
 }
 
@@ -118,6 +128,7 @@ enum State {
 /// let decoder = Decoder::new(Profile::parse([("format", "t485")])?)?;
 /// let mut session = Session::new(decoder, 0).unwrap();
 /// session.handle_timeout(0);
+/// session.handle_timeout(session.deadline());
 /// assert_eq!(session.poll_output(), Some(Output::Transmit(vec![0x1a])));
 /// # Ok::<(), encoderscope::profile::ProfileError>(())
 /// ```
@@ -131,6 +142,9 @@ pub struct Session {
     state: State,
     echo: Echo,
     votes: u8,
+    timeout: Micros,
+    /// A reply was missing and may still come.
+    late: bool,
     received: Vec<u8>,
     output: VecDeque<Output>,
 }
@@ -160,9 +174,11 @@ impl Session {
             request,
             reply,
             interval,
-            state: State::Idle(0),
+            state: State::Fresh,
             echo: Echo::Unknown,
             votes: 0,
+            timeout: TIMEOUT,
+            late: false,
             received: Vec::new(),
             output: VecDeque::new(),
         })
@@ -184,6 +200,7 @@ impl Session {
     #[must_use]
     pub const fn deadline(&self) -> Micros {
         match self.state {
+            State::Fresh => 0,
             State::Idle(at) | State::Draining(at) => at,
             State::Waiting { until, .. } => until,
         }
@@ -197,17 +214,19 @@ impl Session {
     /// Bytes have come.
     pub fn handle_input(&mut self, now: Micros, bytes: &[u8]) {
         match self.state {
-            State::Idle(_) => self.skip(bytes, Why::NoFrame),
-            State::Draining(_) => {
-                self.skip(bytes, Why::NoFrame);
-                self.state = State::Draining(now + QUIET);
+            State::Fresh | State::Idle(_) | State::Draining(_) => {
+                self.skip(bytes, Why::Unasked);
+                let until = self.deadline().max(now + QUIET);
+                self.state = State::Draining(until);
             }
             State::Waiting { sent, until } => {
                 self.received.extend_from_slice(bytes);
                 let offset = usize::from(self.echo == Echo::Present);
                 let whole = self.received.len() >= self.reply + offset;
+                let exact = self.received.len() == self.reply + offset;
                 let plain = offset == 0 || self.received[0] == self.request;
-                if self.echo != Echo::Unknown && whole && plain && self.holds_at(offset) {
+                let known = self.echo != Echo::Unknown && !self.late;
+                if known && exact && plain && self.holds_at(offset) {
                     self.accept(now, sent, offset);
                 } else if self.received.len() > FLOOD {
                     self.judge(now, sent);
@@ -227,6 +246,7 @@ impl Session {
             return;
         }
         match self.state {
+            State::Fresh => self.state = State::Draining(now + QUIET),
             State::Idle(_) | State::Draining(_) => {
                 self.output
                     .push_back(Output::Transmit([self.request].into()));
@@ -234,7 +254,7 @@ impl Session {
                 let on_wire = bits * 1_000_000 / u64::from(self.decoder.profile().baud);
                 self.state = State::Waiting {
                     sent: now,
-                    until: now + on_wire + TIMEOUT,
+                    until: now + on_wire + self.timeout,
                 };
             }
             State::Waiting { sent, .. } => self.judge(now, sent),
@@ -273,13 +293,20 @@ impl Session {
             (false, false) => None,
         };
         if let Some(offset) = found {
-            self.vote(if offset == 1 {
-                Echo::Present
-            } else {
-                Echo::Absent
-            });
-            self.emit(now, sent, offset, found);
-            self.state = State::Idle((sent + self.interval).max(now));
+            let alone = have == self.reply + offset;
+            if alone && !self.late {
+                self.vote(if offset == 1 {
+                    Echo::Present
+                } else {
+                    Echo::Absent
+                });
+                return self.accept(now, sent, offset);
+            }
+            // It may answer an earlier request, or belong to a talk that nobody asked for.
+            let quiet = if self.late { self.timeout } else { QUIET };
+            self.late = false;
+            self.emit(now, sent, offset, None);
+            self.state = State::Draining(now + quiet);
             return;
         }
         let only_echo = have == 1 && self.received[0] == self.request;
@@ -287,6 +314,8 @@ impl Session {
             let bytes = core::mem::take(&mut self.received);
             self.skip(&bytes, Why::Request);
             self.output.push_back(Output::Silent { echo: only_echo });
+            self.late = true;
+            self.timeout = (2 * self.timeout).min(LONGEST_TIMEOUT);
         } else if have < self.reply {
             let bytes = core::mem::take(&mut self.received);
             self.skip(

@@ -109,7 +109,70 @@ test('it fits a phone and follows the theme', async ({ page }) => {
   const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const light = await ground();
   await page.getByLabel('Light or dark').click();
-  expect(await ground()).not.toBe(light);
+  await expect.poll(ground).not.toBe(light);
   await page.reload();
-  expect(await ground()).not.toBe(light);
+  await expect.poll(ground).not.toBe(light);
+});
+
+test('a port that never opens can be given up', async ({ page }) => {
+  await page.addInitScript(() => {
+    // No worker, so that the scripted port below is the one the engine sees.
+    window.Worker = class {
+      constructor() {
+        throw new Error('no workers here');
+      }
+    };
+    const port = { getInfo: () => ({}), open: () => new Promise(() => {}) };
+    const serial = { getPorts: async () => [port] };
+    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
+  });
+  await page.goto('/');
+  await at(page, 'connect').click();
+  await expectLink(page, 'opening');
+  await at(page, 'disconnect').click();
+  await expectLink(page, 'closed');
+  await expectDemo(page);
+});
+
+test('replies that become too short are not shown as reading', async ({ page }) => {
+  await page.addInitScript(() => {
+    window.Worker = class {
+      constructor() {
+        throw new Error('no workers here');
+      }
+    };
+    const reply = [0x1a, 0x20, 0x29, 0xc0, 0x3b, 0x17, 0, 0, 0, 0xc8, 0x37];
+    let sent = 0;
+    let out;
+    const port = {
+      getInfo: () => ({}),
+      open: async () => {
+        port.readable = new ReadableStream({ start: (controller) => (out = controller) });
+        port.writable = new WritableStream({
+          write: () => {
+            sent += 1;
+            const bytes = sent > 20 ? reply.slice(0, 5) : reply;
+            setTimeout(() => out.enqueue(new Uint8Array(bytes)), 1);
+          },
+        });
+      },
+      close: async () => {},
+    };
+    const serial = { getPorts: async () => [port] };
+    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
+  });
+  await page.goto('/#/console?format=t485');
+  await at(page, 'connect').click();
+  await expectLink(page, 'reading');
+  await expectLink(page, 'failing');
+  await expect(page.getByText('last reading before the link stopped')).toBeVisible();
+});
+
+test('what is shown and what runs are one profile', async ({ page }) => {
+  await page.goto('/#/console?format=rs485&command=0');
+  await expectDemo(page);
+  await page.goto('/#/decode?format=t485&angle-bits=17');
+  await page.getByRole('link', { name: 'Console', exact: true }).click();
+  await expect(at(page, 'profile')).toContainText('17 bit');
+  await expect(page.getByText('/ 131 072 counts')).toBeVisible();
 });

@@ -4,16 +4,18 @@
 use crate::{
     browser::{Timer, error_text, now},
     link,
-    message::{FromEngine, Link, PortId, Snapshot, ToEngine},
+    message::{FromEngine, Link, PortId, ToEngine},
     serial::{Port, Read, Reader},
     tally::Tally,
 };
 use encoderscope::{
     decode::Decoder,
     emulator::{Emulator, Shaft},
+    framing::Why,
     session::{Micros, Output, Session},
 };
 use std::{cell::RefCell, rc::Rc};
+use wasm_bindgen::JsValue;
 
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
@@ -21,6 +23,9 @@ const DEMO_INTERVAL: Micros = 1_000;
 const SILENT_AFTER: u32 = 3;
 /// Frames with a fault in a row after which the link is called failing.
 const FAILING_AFTER: u32 = 10;
+
+/// Bytes without a request after which the encoder is called free-running.
+const UNASKED_AFTER: usize = 100;
 
 /// The engine; clones share one state.
 #[derive(Clone)]
@@ -38,8 +43,10 @@ struct State {
     wanted: bool,
     /// What the page has asked for and nobody has begun.
     asked: Option<ToEngine>,
-    /// Something is being opened or closed.
+    /// What has been asked is being done.
     busy: bool,
+    /// A port is being opened.
+    opening: bool,
     /// Counts openings, so that what belongs to an earlier one can be told.
     generation: u32,
 }
@@ -51,6 +58,8 @@ struct Run {
     wire: Wire,
     silent: u32,
     failing: u32,
+    /// Bytes that came unasked since the last good frame.
+    unasked: usize,
 }
 
 /// How reading goes on.
@@ -87,6 +96,7 @@ impl Engine {
                 wanted: true,
                 asked: None,
                 busy: false,
+                opening: false,
                 generation: 0,
             })),
         };
@@ -111,11 +121,16 @@ impl Engine {
             state.wanted = true;
             return state.pump();
         }
-        // Opening and closing take a while and must not overlap; of what is asked meanwhile,
-        // only the last counts.
-        let idle = state.asked.is_none() && !state.busy;
         state.asked = Some(message);
-        if idle {
+        drop(state);
+        self.kick();
+    }
+
+    /// Starts doing what has been asked, unless that is being done; of what is asked meanwhile,
+    /// only the last counts.
+    fn kick(&self) {
+        let mut state = self.state.borrow_mut();
+        if state.asked.is_some() && !state.busy {
             state.busy = true;
             let engine = self.clone();
             wasm_bindgen_futures::spawn_local(async move { engine.work().await });
@@ -125,16 +140,22 @@ impl Engine {
     async fn work(&self) {
         loop {
             let Some(message) = self.state.borrow_mut().asked.take() else {
-                self.state.borrow_mut().busy = false;
-                return;
+                break;
             };
             self.close().await;
             match message {
-                ToEngine::Open { port, profile } => self.open(port, &profile).await,
+                ToEngine::Open { .. } if self.state.borrow().opening => {
+                    // A port cannot be opened twice; when it is open or refused, this goes on.
+                    self.state.borrow_mut().asked = Some(message);
+                    self.set_link(Link::Opening);
+                    break;
+                }
+                ToEngine::Open { port, profile } => self.begin_open(port, &profile),
                 ToEngine::Demo { profile } => self.demo(&profile),
                 ToEngine::Close | ToEngine::Next => self.set_link(Link::Closed),
             }
         }
+        self.state.borrow_mut().busy = false;
     }
 
     fn set_link(&self, link: Link) {
@@ -188,7 +209,7 @@ impl Engine {
                 let wire = Wire::Demo(Box::new(emulator));
                 self.start(session, decoder, wire);
             }
-            Err(reason) => self.set_link(Link::Refused { reason }),
+            Err(reason) => self.set_link(Link::Unfit { reason }),
         }
     }
 
@@ -202,34 +223,47 @@ impl Engine {
             wire,
             silent: 0,
             failing: 0,
+            unasked: 0,
         });
         state.link = Link::Waiting;
         state.pump();
     }
 
-    async fn open(&self, port: PortId, profile: &str) {
+    /// Opening may take for ever, so nothing waits for it.
+    fn begin_open(&self, port: PortId, profile: &str) {
         let (session, decoder) = match Self::session(profile, 0) {
             Ok(made) => made,
-            Err(reason) => return self.set_link(Link::Refused { reason }),
+            Err(reason) => return self.set_link(Link::Unfit { reason }),
         };
         self.set_link(Link::Opening);
-        match Port::open(port, decoder.profile().baud).await {
-            Ok(port) => {
-                self.start(session, decoder, Wire::Port { port, reader: None });
-                let engine = self.clone();
-                let generation = self.state.borrow().generation;
-                wasm_bindgen_futures::spawn_local(async move { engine.read(generation).await });
+        let generation = {
+            let mut state = self.state.borrow_mut();
+            state.opening = true;
+            state.generation
+        };
+        let engine = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            let opened = Port::open(port, decoder.profile().baud).await;
+            let current = engine.state.borrow().generation == generation;
+            match opened {
+                Ok(port) if current => {
+                    engine.state.borrow_mut().opening = false;
+                    engine.start(session, decoder, Wire::Port { port, reader: None });
+                    engine.read(generation).await;
+                }
+                Ok(port) => {
+                    port.close().await;
+                    engine.state.borrow_mut().opening = false;
+                }
+                Err(error) => {
+                    engine.state.borrow_mut().opening = false;
+                    if current {
+                        engine.set_link(refused(&error));
+                    }
+                }
             }
-            Err(error) => {
-                let (name, message) = error_text(&error);
-                let reason = if name == "InvalidStateError" {
-                    "the port is already open in another tab or worker of this page".into()
-                } else {
-                    message
-                };
-                self.set_link(Link::Refused { reason });
-            }
-        }
+            engine.kick();
+        });
     }
 
     /// Reads the port until it is closed or lost.
@@ -293,23 +327,27 @@ impl Engine {
 
     /// The port went away.
     async fn lose(&self, generation: u32) {
-        let run = {
+        {
             let mut state = self.state.borrow_mut();
-            if state.generation != generation {
+            if state.generation != generation || state.busy {
                 return;
             }
-            state.generation += 1;
-            state.run.take()
-        };
-        if let Some(Run {
-            wire: Wire::Port { port, .. },
-            ..
-        }) = run
-        {
-            port.close().await;
+            state.busy = true;
         }
+        self.close().await;
         self.set_link(Link::Lost);
+        self.work().await;
     }
+}
+
+fn refused(error: &JsValue) -> Link {
+    let (name, message) = error_text(error);
+    let reason = if name == "InvalidStateError" {
+        "The port is already open in another tab of this page.".into()
+    } else {
+        message
+    };
+    Link::Refused { reason }
 }
 
 impl State {
@@ -335,10 +373,11 @@ impl State {
         }
         if self.wanted && self.tally.changed() {
             self.wanted = false;
-            let snapshot = Snapshot {
-                link: self.link.clone(),
-                ..self.tally.snapshot(now)
-            };
+            let mut snapshot = self.tally.snapshot(now);
+            snapshot.link = self.link.clone();
+            if self.run.is_none() {
+                snapshot.rate = 0.0;
+            }
             (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
         }
     }
@@ -395,9 +434,14 @@ impl Run {
             Output::Frame { .. } if good => {
                 self.silent = 0;
                 self.failing = 0;
+                self.unasked = 0;
                 Some(Link::Reading)
             }
-            Output::Frame { .. } => {
+            Output::Frame { .. }
+            | Output::Skip {
+                why: Why::Truncated { .. },
+                ..
+            } => {
                 self.silent = 0;
                 self.failing += 1;
                 (self.failing >= FAILING_AFTER).then_some(Link::Failing)
@@ -405,6 +449,13 @@ impl Run {
             Output::Silent { echo } => {
                 self.silent += 1;
                 (self.silent >= SILENT_AFTER).then_some(Link::Silent { echo: *echo })
+            }
+            Output::Skip {
+                why: Why::Unasked,
+                bytes,
+            } => {
+                self.unasked += bytes.len();
+                (self.unasked >= UNASKED_AFTER).then_some(Link::Unasked)
             }
             Output::Skip { .. } | Output::Transmit(_) => None,
         }

@@ -70,6 +70,13 @@ pub enum Link {
     },
     /// Bytes come back, but no check holds.
     Failing,
+    /// Bytes come without being asked for.
+    Unasked,
+    /// The profile cannot be read over a serial port.
+    Unfit {
+        /// Why.
+        reason: String,
+    },
     /// The port could not be opened.
     Refused {
         /// Why, in the browser's words.
@@ -91,6 +98,8 @@ impl Link {
             Self::Silent { echo: false } => "silent",
             Self::Silent { echo: true } => "echo-only",
             Self::Failing => "failing",
+            Self::Unasked => "unasked",
+            Self::Unfit { .. } => "unfit",
             Self::Refused { .. } => "refused",
             Self::Lost => "lost",
         }
@@ -99,7 +108,10 @@ impl Link {
     /// Whether a port is open or being opened.
     #[must_use]
     pub const fn is_open(&self) -> bool {
-        !matches!(self, Self::Closed | Self::Refused { .. } | Self::Lost)
+        !matches!(
+            self,
+            Self::Closed | Self::Unfit { .. } | Self::Refused { .. } | Self::Lost
+        )
     }
 }
 

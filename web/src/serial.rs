@@ -53,6 +53,26 @@ fn identity(index: usize, port: &SerialPort) -> PortId {
     }
 }
 
+fn identities(ports: &[SerialPort]) -> Vec<PortId> {
+    let numbered = ports.iter().enumerate();
+    numbered
+        .map(|(index, port)| identity(index, port))
+        .collect()
+}
+
+/// Where a port stands in a list: at its own place, or, when the list has changed, at that of
+/// the only one of its kind. Another port is never taken for it.
+#[must_use]
+pub fn find(listed: &[PortId], wanted: PortId) -> Option<usize> {
+    if listed.contains(&wanted) {
+        return Some(wanted.index as usize);
+    }
+    let alike = |port: &PortId| (port.vendor, port.product) == (wanted.vendor, wanted.product);
+    let mut places = (0..listed.len()).filter(|index| alike(&listed[*index]));
+    let first = places.next();
+    first.filter(|_| places.next().is_none())
+}
+
 async fn ports() -> Result<Vec<SerialPort>, JsValue> {
     let serial = serial().ok_or_else(|| JsValue::from_str("no Web Serial"))?;
     let list: Array = JsFuture::from(serial.get_ports()).await?.unchecked_into();
@@ -65,12 +85,7 @@ async fn ports() -> Result<Vec<SerialPort>, JsValue> {
 ///
 /// The browser refuses to list them.
 pub async fn known() -> Result<Vec<PortId>, JsValue> {
-    let ports = ports().await?;
-    Ok(ports
-        .iter()
-        .enumerate()
-        .map(|(index, port)| identity(index, port))
-        .collect())
+    Ok(identities(&ports().await?))
 }
 
 /// Asks the user for a port; must be called from a click, on the page.
@@ -147,17 +162,13 @@ impl Port {
     /// The port is not there any more, is busy, or the browser may not open it.
     pub async fn open(id: PortId, baud: u32) -> Result<Self, JsValue> {
         let ports = ports().await?;
-        let alike = |(index, port): &(usize, &SerialPort)| {
-            let other = identity(*index, port);
-            (other.vendor, other.product) == (id.vendor, id.product)
-        };
-        let listed = ports.iter().enumerate().filter(alike);
-        let same = listed
-            .clone()
-            .find(|(index, _)| *index == id.index as usize);
-        let (_, port) = same
-            .or_else(|| listed.clone().next())
-            .ok_or_else(|| JsValue::from(js_sys::Error::new("the port is not connected")))?;
+        let listed: Vec<PortId> = identities(&ports);
+        let index = find(&listed, id).ok_or_else(|| {
+            JsValue::from(js_sys::Error::new(
+                "The adapter is not plugged in, or not the only one of its kind.",
+            ))
+        })?;
+        let port = &ports[index];
         let options = SerialOptions::new(baud);
         options.set_buffer_size(BUFFER);
         JsFuture::from(port.open(&options)).await?;

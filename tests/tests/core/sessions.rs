@@ -206,27 +206,114 @@ fn noise_is_counted_and_no_reading_is_wrong() {
 fn silence_is_said_and_reading_goes_on_when_the_encoder_is_back() {
     let mut pair = Pair::new("format=t485", Shaft::still(0.5));
     pair.emulator.faults.silent = true;
-    let log = pair.run(SECOND);
+    let log = pair.run(4 * SECOND);
     assert!(log.silent > 5 && log.readings.is_empty());
     pair.emulator.faults.echo = true;
-    let log = pair.run(2 * SECOND);
-    assert!(log.silent > 5 && log.readings.is_empty());
+    let log = pair.run(8 * SECOND);
+    assert!(log.silent > 3 && log.readings.is_empty());
     pair.emulator.faults = Faults::default();
-    assert!(pair.run(3 * SECOND).readings.len() > 500);
+    assert!(pair.run(11 * SECOND).readings.len() > 500);
+}
+
+/// Runs a session up to the request it sends next.
+fn ask(session: &mut Session) -> Micros {
+    loop {
+        let now = session.deadline();
+        session.handle_timeout(now);
+        if let Some(Output::Transmit(_)) = session.poll_output() {
+            return now;
+        }
+    }
 }
 
 #[test]
 fn a_late_reply_is_not_taken_for_the_next_one() {
-    let decoder = decoder("format=rs485 command=1 turns-bits=0");
+    let decoder = decoder("format=t485");
+    let mut emulator = Emulator::new(*decoder.profile(), Shaft::turning(0.0, 0.3)).unwrap();
     let mut session = Session::new(decoder, 0).unwrap();
-    session.handle_timeout(0);
-    assert_eq!(session.poll_output(), Some(Output::Transmit(vec![0x31])));
-    session.handle_timeout(session.deadline());
-    assert_eq!(session.poll_output(), Some(Output::Silent { echo: false }));
-    let late = [0x12, 0x34, 0x56, 0x00];
-    session.handle_input(session.deadline() - 1, &late);
-    assert!(matches!(session.poll_output(), Some(Output::Skip { .. })));
-    assert_eq!(session.poll_output(), None);
+    // Every reply takes 150 ms, longer than the first time-out.
+    let delay = 150_000;
+    let mut on_the_way = std::collections::VecDeque::new();
+    let mut now = 0;
+    let mut sure = 0;
+    while now < 20 * SECOND {
+        session.handle_timeout(now);
+        while let Some((at, bytes)) = on_the_way.front().cloned() {
+            if at > now {
+                break;
+            }
+            let _: Option<(Micros, Vec<u8>)> = on_the_way.pop_front();
+            session.handle_input(now, &bytes);
+        }
+        while let Some(output) = session.poll_output() {
+            match output {
+                Output::Transmit(bytes) => {
+                    emulator.handle_input(now, &bytes);
+                    on_the_way.push_back((now + delay, emulator.poll_output(Micros::MAX).unwrap()));
+                }
+                Output::Frame {
+                    sure: true,
+                    latency,
+                    ..
+                } => {
+                    assert!(latency >= delay, "{latency}");
+                    sure += 1;
+                }
+                _ => {}
+            }
+        }
+        now += 500;
+    }
+    assert!(sure > 50, "{sure}");
+}
+
+/// A free-running encoder is heard before anything is asked, and none of it is a reply.
+#[test]
+fn what_talks_unasked_is_not_read() {
+    let decoder = decoder("format=rs485 command=d");
+    let mut emulator = Emulator::new(*decoder.profile(), Shaft::turning(0.0, 0.3)).unwrap();
+    for phase in 0..7 {
+        let mut session = Session::new(decoder.clone(), 0).unwrap();
+        let mut bytes = Vec::new();
+        for millisecond in 0..2000 {
+            let now = millisecond * 1000;
+            emulator.handle_input(now, b"d");
+            bytes.extend(emulator.poll_output(Micros::MAX).unwrap());
+            if bytes.len() < 7 + phase {
+                continue;
+            }
+            session.handle_timeout(now);
+            let rest = bytes.split_off(7);
+            session.handle_input(now, &bytes);
+            bytes = rest;
+            while let Some(output) = session.poll_output() {
+                assert!(
+                    !matches!(output, Output::Frame { sure: true, .. }),
+                    "{phase} {now}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_reply_with_something_behind_it_is_not_sure() {
+    let decoder = decoder("format=t485");
+    let mut emulator = Emulator::new(*decoder.profile(), Shaft::still(0.5)).unwrap();
+    let mut session = Session::new(decoder, 0).unwrap();
+    for _ in 0..5 {
+        let now = ask(&mut session);
+        emulator.handle_input(now, &[0x1a]);
+        let mut reply = emulator.poll_output(Micros::MAX).unwrap();
+        reply.push(0x55);
+        session.handle_input(now + 50, &reply);
+        session.handle_timeout(session.deadline());
+        assert!(matches!(
+            session.poll_output(),
+            Some(Output::Frame { sure: false, .. })
+        ));
+        assert!(matches!(session.poll_output(), Some(Output::Skip { .. })));
+    }
 }
 
 #[test]

@@ -55,18 +55,23 @@ pub(crate) struct App {
     pub(crate) snapshot: RwSignal<Snapshot>,
     pub(crate) source: RwSignal<Source>,
     pub(crate) ports: RwSignal<Vec<PortId>>,
-    pub(crate) port: RwSignal<usize>,
+    pub(crate) port: RwSignal<Option<PortId>>,
+    /// What the engine was last started with.
+    running: RwSignal<Option<Profile>>,
     /// Why there is no port, in words.
     pub(crate) notice: RwSignal<Option<String>>,
     /// Text of the decode area.
     pub(crate) dump: RwSignal<String>,
+    /// The worker has broken down, and an engine on the page has taken over.
+    broken: RwSignal<bool>,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
 impl App {
     fn new(make_worker: &js_sys::Function) -> Self {
         let snapshot = RwSignal::new(Snapshot::default());
-        let connection = Connection::new(make_worker, snapshot);
+        let broken = RwSignal::new(false);
+        let connection = Connection::new(make_worker, snapshot, broken);
         Self {
             area: RwSignal::new(Area::Console),
             profile: RwSignal::new(Format::T485.default_profile()),
@@ -74,9 +79,11 @@ impl App {
             snapshot,
             source: RwSignal::new(Source::Preview),
             ports: RwSignal::new(Vec::new()),
-            port: RwSignal::new(0),
+            port: RwSignal::new(None),
+            running: RwSignal::new(None),
             notice: RwSignal::new(None),
             dump: RwSignal::new(String::new()),
+            broken,
             connection: StoredValue::new_local(connection),
         }
     }
@@ -91,16 +98,27 @@ impl App {
     pub(crate) fn demo(&self, source: Source) {
         self.source.set(source);
         self.notice.set(None);
-        // BiSS-C is not read over a serial port; its demo is the decoder's.
-        let profile = self.profile.get_untracked();
-        let polled = if profile.format.is_polled() {
-            profile
-        } else {
-            Format::T485.default_profile()
-        };
+        let profile = self.pollable();
+        self.running.set(Some(profile));
         self.send(ToEngine::Demo {
-            profile: query(&polled),
+            profile: query(&profile),
         });
+    }
+
+    /// The present profile, or the nearest one that the console can poll: a dump can be decoded
+    /// as more than can be asked for.
+    fn pollable(&self) -> Profile {
+        let profile = self.profile.get_untracked();
+        if !profile.format.is_polled() {
+            Format::T485.default_profile()
+        } else if profile.command.changes_encoder() {
+            Profile {
+                command: profile.format.default_profile().command,
+                ..profile
+            }
+        } else {
+            profile
+        }
     }
 
     /// Opens the chosen known port, or asks for one when none is known.
@@ -108,13 +126,17 @@ impl App {
         leptos::task::spawn_local(async move {
             self.refresh_ports().await;
             let known = self.ports.get_untracked();
-            let port = known
-                .get(self.port.get_untracked())
-                .or(known.first())
-                .copied();
-            match port {
-                Some(port) => self.open(port),
-                None => self.add_port().await,
+            match self.port.get_untracked() {
+                Some(chosen) => match serial::find(&known, chosen) {
+                    Some(index) => self.open(known[index]),
+                    None => self.notice.set(Some(
+                        "The adapter is not plugged in. Plug it in, or choose another port.".into(),
+                    )),
+                },
+                None => match known.first() {
+                    Some(port) => self.open(*port),
+                    None => self.add_port().await,
+                },
             }
         });
     }
@@ -124,7 +146,6 @@ impl App {
         match serial::ask().await {
             Ok(port) => {
                 self.refresh_ports().await;
-                self.port.set(port.index as usize);
                 self.open(port);
             }
             Err(error) => {
@@ -142,10 +163,13 @@ impl App {
 
     fn open(self, port: PortId) {
         self.notice.set(None);
+        self.port.set(Some(port));
         self.source.set(Source::Port);
+        let profile = self.profile.get_untracked();
+        self.running.set(Some(profile));
         self.send(ToEngine::Open {
             port,
-            profile: query(&self.profile.get_untracked()),
+            profile: query(&profile),
         });
     }
 
@@ -160,19 +184,24 @@ impl App {
         }
     }
 
-    /// Takes over a new profile; what runs goes on with it.
+    /// Takes over a new profile.
     pub(crate) fn change_profile(self, profile: Profile) {
-        if self.profile.get_untracked() == profile {
-            return;
-        }
         self.profile.set(profile);
         self.link_fault.set(None);
-        if self.area.get_untracked() != Area::Console {
+    }
+
+    /// Lets the console run with the profile that is shown.
+    fn follow_profile(self) {
+        let shown = self.profile.get();
+        if self.area.get() != Area::Console {
             return;
         }
+        let running = self.running.get_untracked();
         match self.source.get_untracked() {
+            Source::Port if running == Some(shown) => {}
             Source::Port if self.snapshot.get_untracked().link.is_open() => self.connect(),
             Source::Port => {}
+            Source::Demo | Source::Preview if running == Some(self.pollable()) => {}
             source => self.demo(source),
         }
     }
@@ -210,7 +239,17 @@ pub(crate) fn app(make_worker: &js_sys::Function) -> impl IntoView + use<> {
     let app = App::new(make_worker);
     provide_context(app);
     app.follow_link(&location_hash());
-    app.demo(Source::Preview);
+    Effect::new(move || app.follow_profile());
+    Effect::new(move || {
+        if app.broken.get() {
+            match app.source.get_untracked() {
+                Source::Port => app
+                    .notice
+                    .set(Some("The reader broke down. Connect again.".into())),
+                source => app.demo(source),
+            }
+        }
+    });
 
     let hash = window_event_listener(ev::hashchange, move |_| app.follow_link(&location_hash()));
     let hide = window_event_listener_untyped("pagehide", move |_| app.disconnect());
@@ -286,17 +325,12 @@ fn summary(profile: &Profile) -> impl IntoView + use<> {
 
 #[component]
 fn ThemeSwitch() -> impl IntoView {
+    // The theme is set before the page is drawn, by the script that loads it.
     let root = document().document_element();
-    let storage = window().local_storage().ok().flatten();
-    let stored = storage
+    let dark = root
         .as_ref()
-        .and_then(|storage| storage.get_item("theme").ok().flatten());
-    let prefers = window()
-        .match_media("(prefers-color-scheme: dark)")
-        .ok()
-        .flatten()
-        .is_some_and(|query| query.matches());
-    let dark = RwSignal::new(stored.map_or(prefers, |stored| stored == "dark"));
+        .and_then(|root| root.get_attribute("data-theme"));
+    let dark = RwSignal::new(dark.as_deref() == Some("dark"));
     Effect::new(move || {
         if let Some(root) = &root {
             // Setting an attribute by a constant name cannot fail.

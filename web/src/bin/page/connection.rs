@@ -28,7 +28,12 @@ struct Inner {
 
 impl Connection {
     /// Starts the worker; snapshots go into `snapshot`.
-    pub(crate) fn new(make_worker: &js_sys::Function, snapshot: RwSignal<Snapshot>) -> Self {
+    /// A worker that breaks down is replaced by an engine on the page, and `broken` is set.
+    pub(crate) fn new(
+        make_worker: &js_sys::Function,
+        snapshot: RwSignal<Snapshot>,
+        broken: RwSignal<bool>,
+    ) -> Self {
         let worker: Option<Worker> = make_worker
             .call0(&wasm_bindgen::JsValue::NULL)
             .ok()
@@ -42,13 +47,13 @@ impl Connection {
             })),
         };
         match worker {
-            Some(worker) => connection.listen(&worker, snapshot),
+            Some(worker) => connection.listen(&worker, snapshot, broken),
             None => connection.run_here(snapshot),
         }
         connection
     }
 
-    fn listen(&self, worker: &Worker, snapshot: RwSignal<Snapshot>) {
+    fn listen(&self, worker: &Worker, snapshot: RwSignal<Snapshot>, broken: RwSignal<bool>) {
         let connection = self.clone();
         let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
             if let Ok(message) = serde_wasm_bindgen::from_value::<FromEngine>(event.data()) {
@@ -58,7 +63,10 @@ impl Connection {
         worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
         on_message.forget();
         let connection = self.clone();
-        let on_error = Closure::<dyn FnMut()>::new(move || connection.run_here(snapshot));
+        let on_error = Closure::<dyn FnMut()>::new(move || {
+            connection.run_here(snapshot);
+            broken.set(true);
+        });
         worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
         on_error.forget();
     }

@@ -100,11 +100,7 @@ fn LinkPanel() -> impl IntoView {
     let link = Memo::new(move |_| app.snapshot.get().link);
     let open = move || link.get().is_open();
     let title = move || match app.source.get() {
-        Source::Port => app
-            .ports
-            .get()
-            .get(app.port.get())
-            .map_or("Serial port".into(), |port| serial::name(*port)),
+        Source::Port => app.port.get().map_or("Serial port".into(), serial::name),
         Source::Demo | Source::Preview => "Demo encoder".into(),
     };
     view! {
@@ -147,10 +143,13 @@ fn PortChooser() -> impl IntoView {
                     "Port"
                     <select
                         data-testid="port"
-                        on:change:target=move |event| app.port.set(event.target().value().parse().unwrap_or(0))
+                        on:change:target=move |event| {
+                            let index = event.target().value().parse::<usize>().unwrap_or(0);
+                            app.port.set(app.ports.get_untracked().get(index).copied());
+                        }
                     >
                         {app.ports.get().into_iter().enumerate().map(|(index, port)| view! {
-                            <option value=index selected=move || app.port.get() == index>{serial::name(port)}</option>
+                            <option value=index selected=move || app.port.get() == Some(port)>{serial::name(port)}</option>
                         }).collect_view()}
                     </select>
                 </label>
@@ -179,6 +178,11 @@ fn link_text(link: &Link) -> (&'static str, String) {
             "Answers, but no check holds",
             "Check the baud rate and the terminator, and that format and bits are those of the order code.".into(),
         ),
+        Link::Unasked => (
+            "The encoder talks without being asked",
+            "It is a free-running model (PERIOD, ASI): this profile asks and waits for replies. Check the order code.".into(),
+        ),
+        Link::Unfit { reason } => ("This profile cannot be polled", format!("{reason}.")),
         Link::Refused { reason } => (
             "The port could not be opened",
             format!("{reason} Close other programs that use it; on Linux your user must be in the group dialout."),

@@ -9,11 +9,10 @@ use encoderscope::{
     decode::{Decoded, Decoder, Frame, Summary},
     detect::{Candidate, detect},
     dump::{self, Dump},
-    explain::grouped,
+    explain::{degrees_text, grouped},
     format::{Format, Medium},
     framing::Why,
     profile::Profile,
-    reading::degrees,
 };
 use encoderscope_web::link::{encode, query};
 use leptos::prelude::*;
@@ -26,9 +25,8 @@ const MOST_ROWS: usize = 1000;
 struct Row {
     start: u64,
     ok: bool,
-    /// Turns, angle, degrees; of a skip nothing.
     turns: Option<u64>,
-    angle: Option<(u64, f64)>,
+    angle: Option<(u64, String)>,
     status: String,
     check: String,
     /// Index among the frames; `None` for skipped input.
@@ -67,7 +65,9 @@ fn row_of_frame(frame: &Frame<'_>, index: usize) -> Row {
         start: frame.start,
         ok: faults.is_empty(),
         turns: values.turns,
-        angle: values.angle.map(|angle| (angle, degrees(angle, bits))),
+        angle: values
+            .angle
+            .map(|angle| (angle, degrees_text(angle, bits, 4))),
         status: status.join(" · "),
         check: faults
             .first()
@@ -85,7 +85,7 @@ fn row_of_skip(start: u64, bytes: &[u8], why: Why, unit: &str) -> Row {
     let more = if bytes.len() > 6 { " …" } else { "" };
     let reason = match why {
         Why::Request => "a request, or its echo".into(),
-        Why::NoFrame => format!("{} of no frame", plural(bytes.len(), "byte")),
+        Why::NoFrame | Why::Unasked => format!("{} of no frame", plural(bytes.len(), "byte")),
         Why::Truncated { have, need } => format!("{have} of {need} {unit}"),
     };
     Row {
@@ -408,7 +408,7 @@ fn RowView(row: Row, chosen: RwSignal<usize>) -> impl IntoView {
     // The numbers of a frame that fails are in its fields; here they would pass for good ones.
     let good = |text: Option<String>| text.filter(|_| row.ok).unwrap_or_else(dash);
     let turns = good(row.turns.map(grouped));
-    let angle = good(row.angle.map(|(_, degrees)| format!("{degrees:.4}°")));
+    let angle = good(row.angle.clone().map(|(_, degrees)| degrees + "°"));
     view! {
         <tr
             data-testid="dump-row"

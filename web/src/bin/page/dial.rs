@@ -1,5 +1,6 @@
 //! The dial and the angle in digits.
 
+use encoderscope::explain::degrees_text;
 use encoderscope_web::message::Shown;
 use leptos::prelude::*;
 
@@ -47,8 +48,8 @@ pub(crate) fn Dial(#[prop(into)] degrees: Signal<Option<f64>>) -> impl IntoView 
 /// Digits of an angle: those within the encoder's accuracy of 0.01°, and those beyond.
 fn digits(shown: &Shown) -> (String, String) {
     let counts_per_degree = 2f64.powi(shown.angle_bits as i32) / 360.0;
-    let places = (counts_per_degree.log10().ceil().max(0.0) as usize).min(6);
-    let text = format!("{:.places$}", shown.degrees);
+    let places = (counts_per_degree.log10().ceil().max(0.0) as u32).min(6);
+    let text = degrees_text(shown.angle as u64, shown.angle_bits, places);
     let trusted = text
         .find('.')
         .map_or(text.len(), |point| (point + 4).min(text.len()));
