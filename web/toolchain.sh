@@ -16,7 +16,7 @@ apt_get() { # what for, packages
 }
 
 command -v cargo >/dev/null || need "cargo is missing" "curl https://sh.rustup.rs -sSf | sh"
-node -e 'process.exit(parseInt(process.versions.node) < 20)' 2>/dev/null ||
+node -e 'process.exit(parseInt(process.versions.node) < 20 ? 1 : 0)' 2>/dev/null ||
   need "Node.js 20 or newer is missing" "see https://nodejs.org/en/download"
 command -v cc >/dev/null || apt_get "a C linker" gcc libc6-dev
 
