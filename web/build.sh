@@ -24,7 +24,7 @@ mkdir -p web/pkg
 bind page page
 bind module encoderscope
 
-inputs=(index.html vite.config.js package-lock.json web/pkg web/js web/public web/style.css web/icon.svg)
+inputs=(index.html vite.config.js package-lock.json web/pkg web/js web/public web/style web/icon.svg)
 if [ ! -e dist/index.html ] || [ -n "$(find "${inputs[@]}" -newer dist/index.html -print -quit)" ]; then
   say "bundling into dist/"
   npx vite build --logLevel warn

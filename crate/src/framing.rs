@@ -18,17 +18,13 @@
 //! no weighing: that is the fast path. All decisions depend on the bytes alone, never on how
 //! they were cut.
 
-use crate::{
-    bits::{self, Bits},
-    decode::Decoder,
-    layout::Resolved,
-    reading::Values,
-};
+mod evidence;
+
+use crate::{bits::Bits, decode::Decoder, layout::Resolved};
 use alloc::vec::Vec;
 use core::fmt;
+use evidence::{Chain, Position, WINDOW};
 
-/// How many frames a phase is judged by.
-const WINDOW: usize = 8;
 /// Evidence that a phase needs, and by which it must lead, in bits.
 const ENOUGH: i32 = 14;
 const LEAD: i32 = 6;
@@ -36,15 +32,8 @@ const LEAD: i32 = 6;
 const HELD: i32 = 6;
 /// Dumps tend to begin and end with whole frames.
 const EDGE: i32 = 4;
-/// A true checksum is 0 once in 256 frames, that of the phase one byte late always.
-const LATE: i32 = -8;
-/// A frame that fails, and a number that jumps.
+/// A frame that fails.
 const FAILS: i32 = -4;
-const JUMPS: i32 = -3;
-/// The angle continues within 1/64 turn.
-const CONTINUES: i32 = 6;
-/// An identical frame once more: frames of this length are there, whatever their phase.
-const REPEATS: i32 = 2;
 /// Longest skip that is reported as one.
 const SKIP: usize = 256;
 
@@ -416,136 +405,4 @@ impl<'d> Framer<'d> {
 enum Ending {
     Open,
     Closed,
-}
-
-/// Where the shaft is, in turns, and the range after which it wraps.
-#[derive(Clone, Copy, Debug)]
-struct Position {
-    turns: f64,
-    range: f64,
-}
-
-impl Position {
-    fn of(layout: &Resolved, values: &Values) -> Option<Self> {
-        let profile = &layout.shape.profile;
-        let angle = values.angle? as f64 / bits::codes(profile.angle_bits) as f64;
-        Some(match values.turns {
-            Some(turns) => Self {
-                turns: turns as f64 + angle,
-                range: bits::codes(profile.turns_bits) as f64,
-            },
-            None => Self {
-                turns: angle,
-                range: 1.0,
-            },
-        })
-    }
-
-    /// How far apart two positions are, in turns, the shorter way round.
-    fn distance(self, other: Self) -> f64 {
-        let apart = (self.turns - other.turns).abs();
-        apart.min((self.range - apart).abs())
-    }
-}
-
-/// The evidence for a phase.
-struct Chain<'b> {
-    score: i32,
-    passes: usize,
-    frames: [(usize, &'b [u8]); WINDOW],
-    last: Option<Position>,
-    status: Option<u8>,
-    repeats: i32,
-    distinct: i32,
-    /// The first two positions, and the redundancy of the first frame.
-    opening: [Option<Position>; 2],
-    redundancy: u32,
-}
-
-impl<'b> Chain<'b> {
-    const fn new(last: Option<Position>) -> Self {
-        Self {
-            score: 0,
-            passes: 0,
-            frames: [(0, &[]); WINDOW],
-            last,
-            status: None,
-            repeats: 0,
-            distinct: 0,
-            opening: [None; 2],
-            redundancy: 0,
-        }
-    }
-
-    fn plus(mut self, bonus: i32) -> Self {
-        self.score += bonus;
-        self
-    }
-
-    /// Whether there are several frames, all the same.
-    const fn only_repeats(&self) -> bool {
-        self.distinct == 1 && self.passes > 1
-    }
-
-    /// Whether the first frame leaps away from `last` and back to the frame behind it: a broken
-    /// frame whose short check passes by chance looks like that.
-    fn leaps(&self, last: Option<Position>) -> bool {
-        let far = |from: Option<Position>, to: Option<Position>| {
-            from.zip(to)
-                .is_some_and(|(from, to)| from.distance(to) > 0.25)
-        };
-        let [first, second] = self.opening;
-        self.redundancy < 16 && far(last, first) && far(first, second)
-    }
-
-    fn visits(&self, at: usize) -> bool {
-        self.frames[..self.passes]
-            .iter()
-            .any(|(visited, _)| *visited == at)
-    }
-
-    fn add(&mut self, layout: &Resolved, frame: &'b [u8], at: usize) {
-        let known = self.frames[..self.passes]
-            .iter()
-            .any(|(_, other)| *other == frame);
-        if known {
-            if self.repeats < 3 {
-                self.repeats += 1;
-                self.score += REPEATS;
-            }
-        } else {
-            self.score += match frame.last() {
-                // Once may be chance.
-                Some(0) if self.distinct == 0 => 0,
-                Some(0) => LATE,
-                _ => layout.redundancy as i32,
-            };
-            self.distinct += 1;
-        }
-        self.frames[self.passes] = (at, frame);
-        self.passes += 1;
-        let values = layout.values(Bits::of_bytes(frame));
-        if self.status.is_some() && values.status != self.status {
-            self.score += JUMPS;
-        }
-        self.status = values.status;
-        let Some(position) = Position::of(layout, &values) else {
-            return;
-        };
-        if self.passes <= 2 {
-            self.opening[self.passes - 1] = Some(position);
-        }
-        if self.passes == 1 {
-            self.redundancy = layout.redundancy;
-        }
-        if let Some(last) = self.last {
-            let distance = position.distance(last);
-            if distance > 0.25 {
-                self.score += JUMPS;
-            } else if distance < 1.0 / 64.0 && !known {
-                self.score += CONTINUES;
-            }
-        }
-        self.last = Some(position);
-    }
 }

@@ -74,7 +74,7 @@ fn Welcome() -> impl IntoView {
         <section class="panel welcome">
             <h1>"Reads absolute encoders in the browser"</h1>
             <p class="lead">
-                "T485, RS485 and RS422 live over a USB adapter; BiSS-C and the others from a pasted dump. "
+                "T485, RS485 and RS422 live over a USB adapter; BiSS-C from a pasted dump. "
                 "No installation, and nothing leaves this device."
             </p>
             <div class="doors">
