@@ -40,6 +40,9 @@ debian_wasm() {
       -exec cp {} "$lib" \;
     rm -rf "$scratch"
   fi
+  # rustc asks for its linker by this name.
+  mkdir -p target/tools/bin
+  ln -sf "$(ls /usr/bin/lld-[0-9]* | sort -V | tail -n 1)" target/tools/bin/rust-lld
   wasm_target_dir=target/debian
 }
 
