@@ -1,4 +1,4 @@
-//! Checksums of the frames (wire.md §0), computed with the `crc` crate.
+//! Checksums of the frames of the MPP and PT manuals, computed with the `crc` crate.
 //!
 //! All of them start from 0, so leading zero bits do not change them: a bit string of any
 //! length is right-aligned into bytes first.

@@ -161,7 +161,7 @@ impl Format {
 }
 
 /// The six status bits that SSI, BiSS-C, RS485, RS422, BUS and PERIOD share
-/// (MPP and PT, "Status bits"; wire.md §0).
+/// (MPP and PT, "Status bits").
 pub static STATUS: &[StatusBit] = &[
     StatusBit {
         place: 5,

@@ -1,6 +1,6 @@
 //! Bytes, cut anyhow, into frames and skips; every byte ends in exactly one of them.
 //!
-//! A CRC that passes does not prove where a frame begins (wire.md §6). A checksum that starts
+//! A CRC that passes does not prove where a frame begins. A checksum that starts
 //! from 0 ignores leading zeros, and a frame followed by a zero byte passes again, so while
 //! the turns stay below 256 the phase one byte late passes in every frame; and on a still
 //! shaft any phase that passes once passes for ever. The framer therefore weighs phases as

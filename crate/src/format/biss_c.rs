@@ -1,5 +1,5 @@
 //! BiSS-C: the synchronous interface of MPP and PT, and of other makers (MPP "BISS-C", PT
-//! "BISS-C"; wire.md §2).
+//! "BISS-C").
 //!
 //! `ack[zeros] start=1 cds=0 turns angle nError nWarning status crc`, most significant bit
 //! first. Error and warning are active low; the CRC-6 is inverted and covers everything from

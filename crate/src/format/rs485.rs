@@ -1,5 +1,5 @@
 //! RS485 and RS422: one-byte commands of MPP and PT encoders (MPP "RS485/RS422", PT
-//! "RS485/RS422 protocol interface"; wire.md §3).
+//! "RS485/RS422 protocol interface").
 //!
 //! 8N1, 2 500 000 baud (code B) or 115 200 (code A). A reply is big-endian data and CRC-8, **without
 //! any echo of the command**: it does not say what it is, so a decoder must be told the

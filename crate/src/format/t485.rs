@@ -1,5 +1,5 @@
 //! T485: the Tamagawa-compatible protocol of MPP and PT encoders (MPP "T485", PT "T485
-//! protocol interface"; wire.md §4).
+//! protocol interface").
 //!
 //! 2 500 000 baud, 8N1. The host sends one control byte; the reply echoes it, adds a status
 //! field and little-endian data, and ends with the exclusive or of all bytes before. Reading

@@ -173,7 +173,7 @@ fn garbage_and_requests_between_frames_are_skipped() {
     );
 }
 
-/// The zero-lead trap of wire.md §6: while the turns are below 256, the phase one byte late
+/// The zero-lead trap: while the turns are below 256, the phase one byte late
 /// passes its CRC in every frame.
 #[test]
 fn a_lost_byte_does_not_slide_the_stream_into_the_late_phase() {
