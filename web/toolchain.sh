@@ -67,7 +67,9 @@ wasm_cargo() {
   if [ $wasm_target_dir = target ]; then
     CARGO_BUILD_TARGET=$wasm_target cargo "$@"
   else
-    PATH=/usr/bin:$PATH CARGO_BUILD_TARGET=$wasm_target CARGO_TARGET_DIR=$wasm_target_dir /usr/bin/cargo "$@"
+    # The library built above has no bitcode, which optimising across crates would need.
+    PATH=/usr/bin:$PATH CARGO_BUILD_TARGET=$wasm_target CARGO_TARGET_DIR=$wasm_target_dir \
+      CARGO_PROFILE_WASM_LTO=off /usr/bin/cargo "$@"
   fi
 }
 
