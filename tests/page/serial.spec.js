@@ -72,9 +72,13 @@ test('the angle, the turns and the status are those of the encoder @serial', asy
   await until(page, 'angle', (angle) => angle === 65_536);
   await expect(at(page, 'angle')).toContainText('180.000');
   expect(await number(page, 'turns')).toBe(7);
-  await expect(at(page, 'status')).toHaveAttribute('data-value', 'battery low');
+  const lit = at(page, 'status').locator('[data-now=true]');
+  await expect(lit).toHaveCount(1);
+  await expect(lit).toContainText('battery low');
+  expect(await number(page, 'status')).toBe(0);
   encoder.set('error=1');
-  await expect(at(page, 'status')).toHaveAttribute('data-value', 'encoder error, battery low');
+  await until(page, 'status', (status) => status === 0x20);
+  await expect(lit).toHaveCount(2);
   await expect(at(page, 'status')).toContainText('red');
 });
 

@@ -155,6 +155,8 @@ pub struct Shown {
     pub error: bool,
     /// The encoder warns.
     pub warning: bool,
+    /// The six status bits; T485: the status field.
+    pub status: Option<u8>,
     /// Revolutions per second.
     pub speed: Option<f64>,
     /// Degrees Celsius.

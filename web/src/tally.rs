@@ -258,6 +258,7 @@ fn shown(frame: &Frame<'_>) -> Option<Shown> {
         turns: reading.turns.map(|turns| turns as f64),
         error: reading.error,
         warning: reading.warning,
+        status: values.status,
         speed: scaled(values.speed),
         temperature: scaled(values.temperature),
     })

@@ -351,16 +351,9 @@ fn Status() -> impl IntoView {
     let app = expect_context::<App>();
     let shown = Memo::new(move |_| app.snapshot.get().reading);
     let lamps = Memo::new(move |_| app.snapshot.get().lamps);
-    let value = move || {
-        let set = lamps
-            .get()
-            .into_iter()
-            .filter(|lamp| lamp.now)
-            .map(|lamp| lamp.name);
-        set.collect::<Vec<_>>().join(", ")
-    };
+    let value = move || shown.get().and_then(|shown| shown.status);
     view! {
-        <section class="panel status" data-testid="status" data-value=value>
+        <section class="panel status" data-testid="status" data-value=move || value().map(|status| status.to_string())>
             <h2>"Status"</h2>
             <ul>
                 {move || shown.get().map(|shown| {
@@ -390,7 +383,7 @@ fn LampRow(lamp: Lamp) -> impl IntoView {
         (false, false) => "never".into(),
     };
     view! {
-        <li class=if lamp.now { "lamp warn" } else { "lamp off" }>
+        <li class=if lamp.now { "lamp warn" } else { "lamp off" } data-now=lamp.now.to_string()>
             <span>
                 {lamp.name}
                 {lamp.now.then(|| view! { <small>{lamp.doc}</small> })}
