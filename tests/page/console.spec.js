@@ -176,3 +176,45 @@ test('what is shown and what runs are one profile', async ({ page }) => {
   await expect(at(page, 'profile')).toContainText('17 bit');
   await expect(page.getByText('/ 131 072 counts')).toBeVisible();
 });
+
+test('when the chosen adapter is unplugged, another is not taken for it', async ({ page }) => {
+  await page.addInitScript(() => {
+    window.Worker = class {
+      constructor() {
+        throw new Error('no workers here');
+      }
+    };
+    const made = (usbVendorId, usbProductId) => {
+      const port = {
+        opened: 0,
+        getInfo: () => ({ usbVendorId, usbProductId }),
+        open: async () => {
+          port.opened += 1;
+          port.readable = new ReadableStream();
+          port.writable = new WritableStream();
+        },
+        close: async () => {},
+      };
+      return port;
+    };
+    window.ports = [made(0x0403, 0x6014), made(0x1a86, 0x55d3)];
+    window.all = [...window.ports];
+    const serial = { getPorts: async () => window.ports };
+    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
+  });
+  await page.goto('/');
+  await at(page, 'connect').click();
+  await expectLink(page, 'waiting');
+  await expect(page.getByText('FT232H').first()).toBeVisible();
+  await at(page, 'disconnect').click();
+  await expectLink(page, 'closed');
+  await page.evaluate(() => window.ports.shift());
+  await at(page, 'connect').click();
+  await expect(page.getByRole('alert')).toContainText('not plugged in');
+  expect(await page.evaluate(() => window.all.map((port) => port.opened))).toEqual([1, 0]);
+  await expect(at(page, 'port').locator('option:checked')).toContainText('FT232H · not plugged in');
+  await at(page, 'port').selectOption({ label: 'CH343' });
+  await at(page, 'connect').click();
+  await expectLink(page, 'waiting');
+  expect(await page.evaluate(() => window.all.map((port) => port.opened))).toEqual([1, 1]);
+});

@@ -136,6 +136,13 @@ fn LinkPanel() -> impl IntoView {
 fn PortChooser() -> impl IntoView {
     let app = expect_context::<App>();
     let known = move || app.ports.get().len();
+    // Shown as chosen, so that taking another port is a choice.
+    let missing = move || {
+        let known = app.ports.get();
+        app.port
+            .get()
+            .filter(|port| serial::find(&known, *port).is_none())
+    };
     view! {
         {move || (known() > 0).then(|| view! {
             <div class="ports">
@@ -148,6 +155,9 @@ fn PortChooser() -> impl IntoView {
                             app.port.set(app.ports.get_untracked().get(index).copied());
                         }
                     >
+                        {move || missing().map(|port| view! {
+                            <option disabled selected>{serial::name(port)} " · not plugged in"</option>
+                        })}
                         {app.ports.get().into_iter().enumerate().map(|(index, port)| view! {
                             <option value=index selected=move || app.port.get() == Some(port)>{serial::name(port)}</option>
                         }).collect_view()}
