@@ -6,8 +6,8 @@
 use crate::{
     bits::{self, BitString},
     decode::Decoder,
-    format::{Format, rs485, t485},
-    layout::{Resolved, Role, Shape},
+    format::{Format, STATUS, rs485, t485},
+    layout::{Layout, Resolved, Role, Shape, StatusBit},
     profile::Profile,
     reading::Values,
     session::Micros,
@@ -74,6 +74,18 @@ impl Shaft {
     pub fn speed_at(&self, now: Micros) -> f64 {
         (self.at(now + 500) - self.at(now.saturating_sub(500))) * 1000.0
     }
+}
+
+/// The bits of `from` that are set in `value`, at the places that `to` gives their names.
+fn carried(value: u64, from: &[StatusBit], to: &[StatusBit]) -> u8 {
+    let set = from.iter().filter(|bit| bits::bit(value, bit.place));
+    set.fold(0, |sum, bit| sum | bit_named(to, bit.name))
+}
+
+/// The bit of a name; nothing where the table has no such bit.
+fn bit_named(table: &[StatusBit], name: &str) -> u8 {
+    let found = table.iter().find(|bit| bit.name == name);
+    found.map_or(0, |bit| bits::low_byte(bits::placed(1, bit.place)))
 }
 
 /// A smooth wave of period 1 between −1 and 1, two parabolas.
@@ -210,14 +222,9 @@ impl Emulator {
     pub fn values(&self, now: Micros) -> Values {
         let (turns, part) = split(self.shaft.at(now) - self.zero);
         let codes = bits::codes(self.profile.angle_bits) as f64;
-        let battery = |place| bits::bit(u64::from(self.status), place);
-        let flag = |on, place| if on { bits::placed(1, place) } else { 0 };
         let (status, alarm) = match self.profile.format {
-            Format::T485 => {
-                let alarm = flag(battery(5), 7) | flag(battery(4), 6);
-                (flag(self.error, 5), bits::low_byte(alarm))
-            }
-            Format::BissC | Format::Rs485 => (u64::from(self.status), 0),
+            Format::T485 => (0, carried(u64::from(self.status), STATUS, t485::ALARM)),
+            Format::BissC | Format::Rs485 => (self.status, 0),
         };
         Values {
             turns: Some(bits::slice(
@@ -228,7 +235,7 @@ impl Emulator {
             angle: Some((part * codes) as u64),
             error: Some(self.error),
             warning: Some(self.warning),
-            status: Some(bits::low_byte(status)),
+            status: Some(status),
             alarm: Some(alarm),
             enid: Some(if self.profile.angle_bits == 17 {
                 0x11
@@ -250,7 +257,7 @@ impl Emulator {
         }
     }
 
-    fn resolved(&self, layout: &'static crate::layout::Layout) -> Resolved {
+    fn resolved(&self, layout: &'static Layout) -> Resolved {
         Resolved::new(layout, Shape::of(self.profile))
     }
 
@@ -271,9 +278,7 @@ impl Emulator {
         let layout = self.resolved(request.unwrap_or(Request::Angle).reply());
         let mut values = self.values(now);
         if request.is_none() {
-            values.status = values
-                .status
-                .map(|status| status | bits::low_byte(bits::placed(1, 6)));
+            values.status = Some(bit_named(t485::STATUS_FIELD, "communication error"));
         }
         let mut out = layout.encode(&values);
         out.write(bits::Span::new(0, 8), u64::from(byte));

@@ -43,6 +43,8 @@ pub struct BitNote {
     pub set: bool,
     /// What it means when it is set, and what to do.
     pub doc: &'static str,
+    /// Whether it is the format's error or warning flag.
+    pub role: Option<Role>,
 }
 
 impl Resolved {
@@ -90,6 +92,7 @@ impl Resolved {
                     name: named.name,
                     set: bits::bit(raw, named.place),
                     doc: named.doc,
+                    role: named.role,
                 })
             })
             .collect()

@@ -3,7 +3,7 @@
 
 use crate::{
     bits::{self, BitString, Bits, Span},
-    layout::{Active, Field, Resolved, Role},
+    layout::{Active, Field, Resolved, Role, StatusBit},
 };
 use alloc::vec::Vec;
 use core::fmt;
@@ -282,7 +282,15 @@ impl Resolved {
                 Role::Angle => values.angle.unwrap_or(0),
                 Role::Error => flag(values.error),
                 Role::Warning => flag(values.warning),
-                Role::Status => byte(values.status),
+                Role::Status => {
+                    let error = |bit: &&StatusBit| {
+                        bit.role == Some(Role::Error) && values.error == Some(true)
+                    };
+                    let errors = field.row.bits.iter().filter(error);
+                    errors.fold(byte(values.status), |raw, bit| {
+                        raw | bits::placed(1, bit.place)
+                    })
+                }
                 Role::Alarm => byte(values.alarm),
                 Role::Enid => byte(values.enid),
                 Role::Speed => bits::from_signed16(values.speed.unwrap_or(0)),

@@ -23,7 +23,6 @@ const DEMO_INTERVAL: Micros = 1_000;
 const SILENT_AFTER: u32 = 3;
 /// Frames with a fault in a row after which the link is called failing.
 const FAILING_AFTER: u32 = 10;
-
 /// Bytes without a request after which the encoder is called free-running.
 const UNASKED_AFTER: usize = 100;
 
@@ -216,7 +215,7 @@ impl Engine {
     fn start(&self, session: Session, decoder: Decoder, wire: Wire) {
         let mut state = self.state.borrow_mut();
         state.tally = Tally::new(now());
-        state.tally.start(decoder, matches!(wire, Wire::Demo(_)));
+        state.tally.start(decoder);
         state.run = Some(Run {
             session,
             since: now(),

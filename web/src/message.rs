@@ -120,8 +120,6 @@ impl Link {
 pub struct Snapshot {
     /// How the link is.
     pub link: Link,
-    /// Whether the built-in encoder answers.
-    pub demo: bool,
     /// The last good reading.
     pub reading: Option<Shown>,
     /// Status bits of the last good frame.

@@ -28,7 +28,6 @@ struct Seen {
 /// What is kept of a link.
 pub struct Tally {
     decoder: Option<Decoder>,
-    demo: bool,
     opened: Micros,
     changed: bool,
     counts: Counts,
@@ -56,7 +55,6 @@ impl Tally {
     pub fn new(now: Micros) -> Self {
         Self {
             decoder: None,
-            demo: false,
             opened: now,
             changed: true,
             counts: Counts::default(),
@@ -70,9 +68,8 @@ impl Tally {
     }
 
     /// A link is open.
-    pub fn start(&mut self, decoder: Decoder, demo: bool) {
+    pub fn start(&mut self, decoder: Decoder) {
         self.decoder = Some(decoder);
-        self.demo = demo;
         self.changed = true;
     }
 
@@ -202,7 +199,6 @@ impl Tally {
             sorted.get(at).map(|latency| *latency as f64 / 1000.0)
         };
         let mut snapshot = Snapshot {
-            demo: self.demo,
             counts: self.counts,
             rate: self.good_times.len() as f64 / over,
             latency: latency(50),

@@ -222,3 +222,24 @@ fn names_of_formats_are_read_back() {
         assert_eq!(format.default_profile().check(), Ok(()));
     }
 }
+
+#[test]
+fn an_error_is_encoded_where_the_format_has_its_bit() {
+    for parameters in ["format=t485", "format=rs485 command=d", "format=biss-c"] {
+        let decoder = decoder(parameters);
+        let layout = decoder.main_layout();
+        for error in [false, true] {
+            let values = encoderscope::reading::Values {
+                error: Some(error),
+                operation: Some(3),
+                ..Default::default()
+            };
+            let frame = layout.encode(&values);
+            assert_eq!(
+                layout.values(frame.as_bits()).error,
+                Some(error),
+                "{parameters}"
+            );
+        }
+    }
+}

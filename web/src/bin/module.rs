@@ -4,7 +4,7 @@ use encoderscope::{
     bits::Bits,
     decode::{Decoded, Decoder},
     dump,
-    format::{Format, Medium},
+    format::{Format, Medium, t485::Request},
     model,
     profile::{Profile, camel},
     reading::Values,
@@ -163,6 +163,10 @@ pub fn encode(profile: &JsValue, values: &JsValue) -> Result<String, JsError> {
     let byte = |name: &str| number(name).map(|value| value as u8);
     let tenths = |name: &str| number(name).map(|value| (value * 10.0).round() as i32);
     let flag = |name: &str| property(values, name).as_bool();
+    // A T485 reply names what was asked for.
+    let asked = decoder
+        .main_layout()
+        .values(Bits::of_bytes(&[Request::All.byte()]));
     let values = Values {
         turns: number("turns").map(|value| value as u64),
         angle: number("angle").map(|value| value as u64),
@@ -174,16 +178,13 @@ pub fn encode(profile: &JsValue, values: &JsValue) -> Result<String, JsError> {
         speed: tenths("speed"),
         temperature: tenths("temperature"),
         count: byte("count"),
-        operation: Some(byte("operation").unwrap_or(ALL_DATA)),
+        operation: byte("operation").or(asked.operation),
         memory: (byte("memoryAddress"), byte("memoryData")),
         ..Values::default()
     };
     let frame = decoder.main_layout().encode(&values);
     Ok(encoderscope::record::hex(frame.as_bits().bytes()))
 }
-
-/// The data ID of the T485 reply that [`encode`] writes.
-const ALL_DATA: u8 = 3;
 
 /// The profile of an order code.
 #[wasm_bindgen(js_name = parseModel)]

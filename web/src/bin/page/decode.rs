@@ -54,10 +54,7 @@ fn row_of_frame(frame: &Frame<'_>, index: usize) -> Row {
         status.push("warning".into());
     }
     for note in frame.explain() {
-        let named = note
-            .bits
-            .iter()
-            .filter(|bit| bit.set && bit.name != "encoder error");
+        let named = note.bits.iter().filter(|bit| bit.set && bit.role.is_none());
         status.extend(named.map(|bit| bit.name.to_owned()));
     }
     let received = values.crc.map(|crc| format!("✓ {:02X}", crc.received));
