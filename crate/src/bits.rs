@@ -84,6 +84,16 @@ impl<'a> Bits<'a> {
     /// The number in `span`, most significant bit first; of spans over 64 bits the last 64.
     #[must_use]
     pub fn read(self, span: Span) -> u64 {
+        let (first, last) = (span.start / 8, span.end().div_ceil(8));
+        if last <= first + 8
+            && span.end() <= self.len
+            && let Some(bytes) = self.bytes.get(first..last)
+        {
+            let word = bytes
+                .iter()
+                .fold(0, |word, byte| word << 8 | u64::from(*byte));
+            return (word >> (last * 8 - span.end())) & mask(span.len);
+        }
         let mut value = 0u64;
         let mut at = span.start;
         while at < span.end() {
@@ -111,6 +121,18 @@ impl<'a> Bits<'a> {
             end = start;
         }
         (out, count)
+    }
+}
+
+impl Bits<'_> {
+    /// The number that the bytes in `span` write in ASCII digits; `None` where one is no digit.
+    #[must_use]
+    pub fn decimal(self, span: Span) -> Option<u64> {
+        let digits = self.bytes.get(span.start / 8..span.end() / 8)?;
+        digits.iter().try_fold(0u64, |number, digit| {
+            let digit = char::from(*digit).to_digit(10)?;
+            number.checked_mul(10)?.checked_add(digit.into())
+        })
     }
 }
 
@@ -158,6 +180,14 @@ impl BitString {
                     self.bytes[index / 8] &= !at;
                 }
             }
+        }
+    }
+
+    /// Writes `value` in ASCII digits into the bytes of `span`; digits beyond it are dropped.
+    pub fn write_decimal(&mut self, span: Span, mut value: u64) {
+        for start in (span.start..span.end()).step_by(8).rev() {
+            self.write(Span::new(start, 8), u64::from(b'0') + value % 10);
+            value /= 10;
         }
     }
 
@@ -221,20 +251,50 @@ pub const fn placed(value: u64, place: u32) -> u64 {
     if place > 63 { 0 } else { value << place }
 }
 
+/// The number that a Gray code of up to 64 bits stands for.
+///
+/// ```
+/// use encoderscope::bits::{from_gray, to_gray};
+/// assert_eq!((to_gray(4), from_gray(0b0110)), (0b0110, 4));
+/// ```
+#[must_use]
+pub const fn from_gray(code: u64) -> u64 {
+    let mut value = code;
+    let mut step = 1;
+    while step < 64 {
+        value ^= value >> step;
+        step *= 2;
+    }
+    value
+}
+
+/// The Gray code of a number: neighbours differ in one bit.
+#[must_use]
+pub const fn to_gray(value: u64) -> u64 {
+    value ^ (value >> 1)
+}
+
+/// How many decimal digits a number has.
+#[must_use]
+pub const fn decimal_digits(value: u64) -> u32 {
+    match value.checked_ilog10() {
+        Some(log) => log + 1,
+        None => 1,
+    }
+}
+
+/// The low `width` bits of `value` as a two's-complement number.
+#[must_use]
+pub const fn signed(value: u64, width: usize) -> i64 {
+    if width == 0 || width >= 64 {
+        return value as i64;
+    }
+    let sign = 1 << (width - 1);
+    ((value & mask(width)) ^ sign) as i64 - sign as i64
+}
+
 /// The low eight bits.
 #[must_use]
 pub const fn low_byte(value: u64) -> u8 {
     (value & 0xff) as u8
-}
-
-/// The low 16 bits of `value` as a two's-complement number.
-#[must_use]
-pub const fn signed16(value: u64) -> i32 {
-    (value & 0xffff) as u16 as i16 as i32
-}
-
-/// `value` as the low 16 bits of a two's-complement number.
-#[must_use]
-pub const fn from_signed16(value: i32) -> u64 {
-    value as u16 as u64
 }

@@ -1,4 +1,4 @@
-//! Checksums of the frames of the MPP and PT manuals, computed with the `crc` crate.
+//! Checksums of the frames of the manuals, computed with the `crc` crate.
 //!
 //! All of them start from 0, so leading zero bits do not change them: a bit string of any
 //! length is right-aligned into bytes first.
@@ -6,7 +6,8 @@
 use crate::bits::{Bits, Span};
 use crc::{Algorithm, Crc};
 
-/// The longest checked run: 64 data bits, two flags and 16 status bits of BiSS-C, rounded up.
+/// The longest checked run in bytes: 64 data bits, two flags and eight status bits of BiSS-C,
+/// rounded up.
 const LONGEST: usize = 16;
 
 static CRC8_97: Crc<u8> = Crc::<u8>::new(&Algorithm {
@@ -42,6 +43,17 @@ static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&Algorithm {
     residue: 0,
 });
 
+static CRC16_8005: Crc<u16> = Crc::<u16>::new(&Algorithm {
+    width: 16,
+    poly: 0x8005,
+    init: 0,
+    refin: false,
+    refout: false,
+    xorout: 0,
+    check: 0xfee8,
+    residue: 0,
+});
+
 /// How a check field is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Checksum {
@@ -51,8 +63,12 @@ pub enum Checksum {
     Crc8Xor,
     /// x⁶+x+1, inverted on the wire: BiSS-C (MPP, appendix CRC-6).
     Crc6Biss,
-    /// One bit that makes the number of ones even: the control field of T485.
+    /// x¹⁶+x¹⁵+x²+1: ASI1 (IP-75, 5.3.1).
+    Crc16x8005,
+    /// One bit that makes the number of ones even: the control field of T485, SSI7.
     EvenParity,
+    /// One bit that makes the number of ones odd: the request of BUS.
+    OddParity,
 }
 
 impl Checksum {
@@ -67,19 +83,26 @@ impl Checksum {
     /// ```
     #[must_use]
     pub fn compute(self, bits: Bits<'_>, over: Span) -> u64 {
-        if self == Self::EvenParity {
-            return u64::from(bits.read(over).count_ones() % 2);
-        }
-        let crc = match self {
-            Self::Crc8x97 => &CRC8_97,
-            Self::Crc8Xor => &CRC8_XOR,
-            Self::Crc6Biss | Self::EvenParity => &CRC6_BISS,
+        let ones = || u64::from(bits.read(over).count_ones() % 2);
+        let whole = over.start.is_multiple_of(8) && over.len.is_multiple_of(8);
+        let run = bits.bytes().get(over.start / 8..over.end() / 8);
+        let padded;
+        let bytes = match run {
+            Some(run) if whole => run,
+            _ => {
+                let (bytes, used) = bits.right_aligned::<LONGEST>(over);
+                padded = bytes;
+                &padded[LONGEST - used..]
+            }
         };
-        if over.start.is_multiple_of(8) && over.len.is_multiple_of(8) && over.end() <= bits.len() {
-            return u64::from(crc.checksum(&bits.bytes()[over.start / 8..over.end() / 8]));
+        match self {
+            Self::Crc8x97 => CRC8_97.checksum(bytes).into(),
+            Self::Crc8Xor => CRC8_XOR.checksum(bytes).into(),
+            Self::Crc6Biss => CRC6_BISS.checksum(bytes).into(),
+            Self::Crc16x8005 => CRC16_8005.checksum(bytes).into(),
+            Self::EvenParity => ones(),
+            Self::OddParity => 1 - ones(),
         }
-        let (bytes, used) = bits.right_aligned::<LONGEST>(over);
-        u64::from(crc.checksum(&bytes[LONGEST - used..]))
     }
 
     /// Number of bits of the check field.
@@ -88,7 +111,8 @@ impl Checksum {
         match self {
             Self::Crc8x97 | Self::Crc8Xor => 8,
             Self::Crc6Biss => 6,
-            Self::EvenParity => 1,
+            Self::Crc16x8005 => 16,
+            Self::EvenParity | Self::OddParity => 1,
         }
     }
 
@@ -99,7 +123,9 @@ impl Checksum {
             Self::Crc8x97 => "CRC-8, x⁸+x⁷+x⁴+x²+x+1",
             Self::Crc8Xor => "CRC-8, x⁸+1 (exclusive or of all bytes)",
             Self::Crc6Biss => "CRC-6, x⁶+x+1, sent inverted",
+            Self::Crc16x8005 => "CRC-16, x¹⁶+x¹⁵+x²+1",
             Self::EvenParity => "even parity",
+            Self::OddParity => "odd parity",
         }
     }
 }

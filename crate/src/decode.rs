@@ -1,12 +1,12 @@
 //! From bytes and bit strings to frames.
 
 use crate::{
-    bits::{Bits, Span},
+    bits::{self, BitString, Bits, Span},
     dump::Dump,
     explain::Note,
-    format::{Format, Medium, biss_c, rs485, t485},
+    format::{Format, Medium, asi1, asi4, biss_c, bus, period, rs485, ssi, ssi_tree, ssi7, t485},
     framing::{Framer, Piece, PieceKind, Why},
-    layout::{Resolved, Shape},
+    layout::{Layout, Resolved, Shape},
     profile::{Profile, ProfileError},
     reading::{Fault, FaultKind, Reading, Values},
 };
@@ -98,11 +98,16 @@ pub struct Summary {
     pub skipped: u64,
 }
 
+/// The shapes that a line of a dump can have, the likeliest first.
+///
+/// Which one is meant is decided over all lines of a dump, by [`Decoder::dump`].
+pub type Shapes = [Option<Shape>; 3];
+
 /// A profile with its layouts resolved.
 #[derive(Clone, Debug)]
 pub struct Decoder {
     profile: Profile,
-    /// One a request for T485, else one.
+    /// T485: one a request; BUS: one an operation; ASI4: one a number of digits; else one.
     layouts: Vec<Resolved>,
 }
 
@@ -115,13 +120,30 @@ impl Decoder {
     pub fn new(profile: Profile) -> Result<Self, ProfileError> {
         profile.check()?;
         let shape = Shape::of(profile);
-        let layouts = match profile.format {
-            Format::BissC => vec![Resolved::new(&biss_c::FRAME, shape)],
-            Format::Rs485 => vec![Resolved::new(profile.command.reply(), shape)],
+        let one = |table| vec![Resolved::new(table, shape)];
+        let layouts: Vec<Resolved> = match profile.format {
+            Format::Ssi => one(&ssi::WORD),
+            Format::BissC => one(&biss_c::FRAME),
+            Format::Ssi7 => one(&ssi7::WORD),
+            Format::SsiTree => one(&ssi_tree::WORD),
+            Format::Rs485 => one(profile.command.reply()),
+            Format::Period => one(period::FRAME),
+            Format::Asi1 => one(&asi1::PACKET),
+            Format::Asi4 => (1..=asi4::DIGITS as u32)
+                .map(|digits| Resolved::new(&asi4::LINE, Shape { digits, ..shape }))
+                .collect(),
             Format::T485 => t485::Request::ALL
                 .iter()
                 .map(|request| Resolved::new(request.reply(), shape))
                 .collect(),
+            Format::Bus => bus::Operation::ALL
+                .iter()
+                .map(|operation| Resolved::new(operation.reply(), shape))
+                .collect(),
+        };
+        let layouts = match profile.format.medium() {
+            Medium::Bits => layouts,
+            Medium::Bytes | Medium::Text => layouts.into_iter().map(Resolved::sieved).collect(),
         };
         Ok(Self { profile, layouts })
     }
@@ -132,38 +154,123 @@ impl Decoder {
         &self.profile
     }
 
-    /// The layout of a frame that begins with `first`; `None` where no frame can.
+    /// The layout of a frame of a byte format that begins `bytes`; `None` where no frame can.
+    ///
+    /// The first byte tells it, except in ASI4, whose lines end where they end.
     #[must_use]
-    pub fn layout(&self, first: u8) -> Option<&Resolved> {
-        match self.profile.format {
-            Format::BissC => None,
-            Format::Rs485 => self.layouts.first(),
-            Format::T485 => {
-                let at = t485::Request::ALL
-                    .iter()
-                    .position(|request| request.byte() == first)?;
-                self.layouts.get(at)
-            }
-        }
+    pub fn layout(&self, bytes: &[u8]) -> Option<&Resolved> {
+        let first = *bytes.first()?;
+        let index = match self.profile.format {
+            Format::Ssi | Format::BissC | Format::Ssi7 | Format::SsiTree => return None,
+            Format::Rs485 | Format::Period | Format::Asi1 => 0,
+            Format::Asi4 => asi4::digits(bytes)? - 1,
+            Format::T485 => t485::Request::ALL
+                .iter()
+                .position(|request| request.byte() == first)?,
+            Format::Bus => self.operation_index(first)?,
+        };
+        self.layouts.get(index)
+    }
+
+    /// Which operation a BUS byte names.
+    fn operation_index(&self, byte: u8) -> Option<usize> {
+        let code = self.layouts.first()?.values(Bits::of_bytes(&[byte])).operation?;
+        bus::Operation::ALL
+            .iter()
+            .position(|operation| operation.code() == code)
     }
 
     /// The layout that describes a whole frame, for explaining and encoding.
     ///
-    /// T485 has one for every request; the reply to `all` stands for them.
+    /// T485 and BUS have several: the replies to `all` and to `get` stand for them.
     #[must_use]
     pub fn main_layout(&self) -> &Resolved {
-        self.layout(t485::Request::All.byte())
-            .unwrap_or(&self.layouts[0])
+        let index = match self.profile.format {
+            Format::T485 => t485::Request::ALL
+                .iter()
+                .position(|request| *request == t485::Request::All),
+            Format::Asi4 => Some(self.layouts.len() - 1),
+            _ => Some(0),
+        };
+        &self.layouts[index.unwrap_or(0)]
+    }
+
+    /// The frame that says `values`; absent ones are 0 or not asserted, checks are computed.
+    ///
+    /// An `operation` chooses between the frames of T485 and BUS; without one it is the reply to
+    /// `all` and to `get`. Without an `address` it is the profile's.
+    ///
+    /// ```
+    /// use encoderscope::{decode::Decoder, profile::Profile, reading::Values};
+    /// let decoder = Decoder::new(Profile::parse([("format", "bus"), ("turns-bits", "0")])?)?;
+    /// let count = Values { operation: Some(1), count: Some(10), ..Values::default() };
+    /// assert_eq!(decoder.encode(&count).into_bytes(), [0xbf, 0x00, 0x0a, 0xb5]);
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    #[must_use]
+    pub fn encode(&self, values: &Values) -> BitString {
+        let mut values = *values;
+        let mut layout = self.main_layout();
+        match self.profile.format {
+            Format::T485 => {
+                let id = |byte: u8| layout.values(Bits::of_bytes(&[byte])).operation;
+                values.operation = values.operation.or(id(t485::Request::All.byte()));
+                let asked = t485::Request::ALL
+                    .iter()
+                    .position(|request| id(request.byte()) == values.operation);
+                layout = asked.map_or(layout, |index| &self.layouts[index]);
+            }
+            Format::Bus => {
+                let asked = bus::Operation::ALL
+                    .iter()
+                    .position(|operation| Some(operation.code()) == values.operation);
+                let own = bits::low_byte(self.profile.address.into());
+                values.address = values.address.or(Some(own));
+                layout = asked.map_or(layout, |index| &self.layouts[index]);
+            }
+            Format::Asi4 => {
+                let digits = bits::decimal_digits(values.angle.unwrap_or(0)) as usize;
+                layout = self.layouts.get(digits - 1).unwrap_or(layout);
+            }
+            _ => {}
+        }
+        layout.encode(&values)
     }
 
     /// Whether `byte` is a request that may stand before its reply in a dump.
     #[must_use]
     pub fn is_request(&self, byte: u8) -> bool {
         match self.profile.format {
-            Format::BissC => false,
             Format::Rs485 => rs485::Command::of_byte(byte) == Some(self.profile.command),
             Format::T485 => t485::Request::of_byte(byte).is_some(),
+            Format::Bus => self.names(byte) > 0,
+            _ => false,
         }
+    }
+
+    /// Whether a reply begins with the byte that was asked.
+    #[must_use]
+    pub const fn echoes(&self) -> bool {
+        matches!(self.profile.format, Format::T485 | Format::Bus)
+    }
+
+    /// How much the first byte of a frame speaks for it beyond what its checks count, in bits.
+    ///
+    /// The CRC of BUS holds for a frame that is read a byte late, as the next one begins with
+    /// the same byte: what remains is its address and a parity that is likely.
+    #[must_use]
+    pub fn names(&self, first: u8) -> i32 {
+        if self.profile.format != Format::Bus {
+            return 0;
+        }
+        let values = self.layouts[0].values(Bits::of_bytes(&[first]));
+        let own = values.address.map(u32::from) == Some(self.profile.address);
+        let parity = match values.parity {
+            Some(parity) if parity.ok() => 1,
+            Some(_) => -4,
+            None => 0,
+        };
+        parity + if own { 6 } else { 0 }
     }
 
     /// Bytes of the longest frame.
@@ -179,7 +286,7 @@ impl Decoder {
     /// Reads `bytes` as exactly one frame of a byte format.
     #[must_use]
     pub fn frame<'a>(&'a self, bytes: &'a [u8]) -> Option<Frame<'a>> {
-        let layout = self.layout(*bytes.first()?)?;
+        let layout = self.layout(bytes)?;
         (layout.len == bytes.len() * 8).then(|| Frame {
             start: 0,
             layout: Cow::Borrowed(layout),
@@ -199,8 +306,13 @@ impl Decoder {
         self.line_as(&shapes, bits, chosen)
     }
 
-    fn shapes(&self, bits: Bits<'_>) -> Result<biss_c::Shapes, Why> {
-        biss_c::shapes(&self.profile, bits).map_err(|need| Why::Truncated {
+    fn shapes(&self, bits: Bits<'_>) -> Result<Shapes, Why> {
+        let found = match self.profile.format {
+            Format::BissC => biss_c::shapes(&self.profile, bits),
+            Format::SsiTree => ssi_tree::shapes(&self.profile, bits),
+            _ => ssi::shapes(self.table(), &self.profile, bits),
+        };
+        found.map_err(|need| Why::Truncated {
             have: bits.len(),
             need: need as usize,
         })
@@ -209,7 +321,7 @@ impl Decoder {
     /// Which of the shapes holds its CRC in most lines; of equals the first.
     fn likeliest<'a>(
         &self,
-        lines: impl Iterator<Item = (&'a Result<biss_c::Shapes, Why>, Bits<'a>)>,
+        lines: impl Iterator<Item = (&'a Result<Shapes, Why>, Bits<'a>)>,
     ) -> usize {
         let mut passes = [0usize; 3];
         for (shapes, bits) in lines {
@@ -223,7 +335,7 @@ impl Decoder {
 
     fn line_as<'a>(
         &'a self,
-        shapes: &Result<biss_c::Shapes, Why>,
+        shapes: &Result<Shapes, Why>,
         bits: Bits<'a>,
         chosen: usize,
     ) -> Result<Frame<'a>, Why> {
@@ -238,11 +350,15 @@ impl Decoder {
         })
     }
 
+    fn table(&self) -> &'static Layout {
+        self.layouts[0].layout
+    }
+
     /// The layout of a shape; most lines have the shape of the profile.
     fn shaped(&self, shape: Shape) -> Cow<'_, Resolved> {
         match self.layouts.first() {
             Some(layout) if layout.shape == shape => Cow::Borrowed(layout),
-            _ => Cow::Owned(Resolved::new(&biss_c::FRAME, shape)),
+            _ => Cow::Owned(Resolved::new(self.table(), shape)),
         }
     }
 
@@ -250,12 +366,12 @@ impl Decoder {
     pub fn dump(&self, dump: &Dump, sink: &mut dyn FnMut(Decoded<'_>)) -> Summary {
         let mut summary = Summary::default();
         match self.profile.format.medium() {
-            Medium::Bytes => {
+            Medium::Bytes | Medium::Text => {
                 let bytes = dump.bytes();
                 summary.bytes = bytes.len() as u64;
-                let mut framer = Framer::new(self);
-                framer.push(&bytes, &mut |piece| piece_out(piece, &mut summary, sink));
-                framer.finish(&mut |piece| piece_out(piece, &mut summary, sink));
+                let mut framer = Framer::at_start();
+                framer.push(self, &bytes, &mut |piece| piece_out(piece, &mut summary, sink));
+                framer.finish(self, &mut |piece| piece_out(piece, &mut summary, sink));
             }
             Medium::Bits => self.lines(dump, &mut summary, sink),
         }

@@ -9,6 +9,7 @@ use crate::{
     decode::{Decoded, Decoder, Frame},
     dump::{self, Dump},
     format::{Format, Medium, rs485::Command},
+    framing::Why,
     layout::{Role, Shape},
     profile::Profile,
     record::Record,
@@ -101,12 +102,14 @@ pub fn detect(text: &str) -> Vec<Candidate> {
     let dumps = [
         dump::parse(text, Medium::Bytes),
         dump::parse(text, Medium::Bits),
+        dump::parse(text, Medium::Text),
     ];
     let mut found: Vec<Candidate> = hypotheses()
         .filter_map(|profile| {
             let dump = match profile.format.medium() {
                 Medium::Bytes => &dumps[0],
                 Medium::Bits => &dumps[1],
+                Medium::Text => &dumps[2],
             };
             weigh(profile, dump)
         })
@@ -114,21 +117,39 @@ pub fn detect(text: &str) -> Vec<Candidate> {
     found.retain(|candidate| candidate.score > CHANCE);
     found.sort_by_key(|candidate| -candidate.score);
     let best = found.first().map_or(0, |candidate| candidate.score);
+    let leader = found.first().map(|candidate| candidate.profile);
     let rivals = found
         .iter()
         .filter(|candidate| best - candidate.score < LEAD)
+        .filter(|candidate| leader.is_none_or(|leader| !reads_alike(&leader, &candidate.profile)))
         .count();
     for candidate in &mut found {
-        if best - candidate.score < LEAD && rivals > 1 {
+        if best - candidate.score < LEAD && rivals > 0 {
             candidate.verdict = Verdict::Ambiguous;
             candidate
                 .evidence
-                .push(format!("{} other readings fit as well", rivals - 1));
-        } else if candidate.score < best {
+                .push(match rivals {
+                    1 => "another reading fits as well".to_string(),
+                    more => format!("{more} other readings fit as well"),
+                });
+        } else if leader.is_some_and(|leader| !reads_alike(&leader, &candidate.profile)) {
             candidate.verdict = Verdict::Unlikely;
         }
     }
     found
+}
+
+/// Whether two profiles give the same readings: PERIOD sends the replies of RS485 to `d`.
+fn reads_alike(one: &Profile, other: &Profile) -> bool {
+    let neutral = |profile: &Profile| match profile.format {
+        Format::Period => Profile {
+            format: Format::Rs485,
+            command: Command::Status,
+            ..*profile
+        },
+        _ => *profile,
+    };
+    neutral(one) == neutral(other)
 }
 
 /// Every profile that is tried.
@@ -157,7 +178,20 @@ fn hypotheses() -> impl Iterator<Item = Profile> {
             ..Format::BissC.default_profile()
         })
     });
-    t485.into_iter().chain(rs485).chain(biss)
+    let plain = [Format::Bus, Format::Period].into_iter().flat_map(move |format| {
+        native().map(move |(angle_bits, turns_bits)| Profile {
+            angle_bits,
+            turns_bits,
+            ..format.default_profile()
+        })
+    });
+    let ip75 = [(Format::Asi1, 14), (Format::Asi1, 22), (Format::Asi4, 14)];
+    let ip75 = ip75.into_iter().chain([(Format::Ssi7, 14), (Format::Ssi7, 22)]);
+    let ip75 = ip75.map(|(format, angle_bits)| Profile {
+        angle_bits,
+        ..format.default_profile()
+    });
+    t485.into_iter().chain(rs485).chain(biss).chain(plain).chain(ip75)
 }
 
 /// Tries one profile; `None` where no frame passes.
@@ -168,9 +202,15 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     let mut named = false;
     let mut preamble = false;
     let mut check_bits = 0;
+    let mut asked = false;
+    let mut addresses = BTreeSet::new();
     let summary = decoder.dump(dump, &mut |decoded| {
-        let Decoded::Frame(frame) = decoded else {
-            return;
+        let frame = match decoded {
+            Decoded::Frame(frame) => frame,
+            Decoded::Skip { why, .. } => {
+                asked |= why == Why::Request;
+                return;
+            }
         };
         if !frame.ok() {
             return;
@@ -189,6 +229,7 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
                     tail: frame.layout.shape.tail,
                     ..Shape::of(profile)
                 };
+        addresses.extend(values.address);
         check_bits = check_width(&frame);
         distinct.insert(frame.bits.bytes().to_vec());
     });
@@ -196,6 +237,14 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     let count = i32::try_from(distinct.len()).unwrap_or(i32::MAX / 64);
     if count == 0 {
         return None;
+    }
+    // Polled replies are not a free-running stream, but nothing tells those without requests.
+    if profile.format == Format::Period && asked {
+        return None;
+    }
+    let mut profile = profile;
+    if let (Some(address), 1) = (addresses.first(), addresses.len()) {
+        profile.address = u32::from(*address);
     }
     let mut evidence = Vec::new();
     evidence.push(format!(
@@ -249,11 +298,17 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
 /// Bits of a frame that are right by chance rarely: its checks, and a control field's pattern.
 fn check_width(frame: &Frame<'_>) -> i32 {
     let fields = frame.layout.fields().filter(|field| match field.row.role {
-        Role::Crc | Role::Parity => true,
+        Role::Crc => true,
+        Role::Parity => field.is_binding(),
         Role::Framing => {
-            field.row.constant.is_some() && frame.layout.shape.profile.format == Format::T485
+            field.row.constant.is_some() && frame.layout.shape.profile.format != Format::BissC
         }
         _ => false,
     });
-    fields.map(|field| field.width as i32).sum()
+    let width = fields.map(|field| field.width as i32).sum();
+    match frame.layout.shape.profile.format {
+        // Any list of small numbers looks like it.
+        Format::Asi4 => width / 4,
+        _ => width,
+    }
 }

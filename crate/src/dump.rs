@@ -1,11 +1,14 @@
 //! Pasted text to bytes and bits.
 //!
 //! Reads hexadecimal bytes with any separators and prefixes (`1a 20`, `0x1A,`, `1A20`, `\x1a`)
-//! and strings of 0 and 1. What cannot be read is kept, with its place.
+//! and strings of 0 and 1; of text streams, lines of decimal numbers too. What cannot be read is kept, with its place.
 
 use crate::{bits::BitString, format::Medium};
 use alloc::vec::Vec;
 use core::ops::Range;
+
+/// Digits of the longest number that is taken for one in a text stream; longer runs are bytes.
+const LONGEST_NUMBER: usize = 6;
 
 /// A parsed dump.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -53,9 +56,13 @@ impl Dump {
 #[must_use]
 pub fn parse(text: &str, medium: Medium) -> Dump {
     let mut dump = Dump::default();
+    if medium == Medium::Text && is_decimal(text) {
+        dump.lines = text.split_whitespace().map(decimal_line).collect();
+        return dump;
+    }
     let all: Vec<Token<'_>> = text.lines().flat_map(tokens_of).collect();
     let binary = match medium {
-        Medium::Bytes => {
+        Medium::Bytes | Medium::Text => {
             let octet = |token: &Token<'_>| token.binary().is_some_and(|digits| digits.len() == 8);
             all.iter().all(octet)
         }
@@ -80,6 +87,22 @@ pub fn parse(text: &str, medium: Medium) -> Dump {
         at += line.len() + 1;
     }
     dump
+}
+
+/// Whether the text is what a terminal shows of a stream of decimal numbers: one a line.
+fn is_decimal(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    lines.all(|line| line.len() <= LONGEST_NUMBER && line.bytes().all(|digit| digit.is_ascii_digit()))
+}
+
+/// A number as it was on the wire.
+fn decimal_line(number: &str) -> Line {
+    let mut bytes = Vec::from(number);
+    bytes.extend(*b"\r\n");
+    Line {
+        bits: BitString::of_bytes(bytes),
+        binary: false,
+    }
 }
 
 /// A run of characters without separators.

@@ -1,128 +1,43 @@
-//! The encoder's side: answers requests as the manuals say, with a moving shaft and faults.
+//! The encoder's side: speaks every format as the manuals say, with a moving shaft and faults.
 //!
-//! Feed requests to [`Emulator::handle_input`] and take the answers from
-//! [`Emulator::poll_output`] when their last bit has left the wire. Time is in microseconds.
+//! Feed requests to [`Emulator::handle_input`] and take what it sends from
+//! [`Emulator::poll_output`] when its last bit has left the wire; read clocked formats with
+//! [`Emulator::clock`]. Time is in microseconds.
+
+mod answers;
+mod bus;
+mod counter;
+mod shaft;
+mod wire;
+
+pub use bus::Bus;
+pub use counter::{Battery, Counter, Direction, ZeroInput};
+pub use shaft::Shaft;
+pub use wire::Faults;
 
 use crate::{
     bits::{self, BitString},
     decode::Decoder,
-    format::{Format, STATUS, rs485, t485},
-    layout::{Layout, Resolved, Role, Shape, StatusBit},
-    profile::Profile,
+    format::{Format, Link, STATUS, asi4, period, t485},
+    layout::StatusBit,
+    profile::{Dialect, Profile, ProfileError},
     reading::Values,
     session::Micros,
 };
-use alloc::{collections::VecDeque, vec::Vec};
+use alloc::vec::Vec;
+use answers::Talk;
+use counter::Scales;
+use shaft::split;
+use wire::Wire;
 
-/// The reply starts 3 µs after the request (MPP "T485").
-const TURNAROUND: Micros = 3;
-/// Resets must be asked for ten times in a row (MPP "T485", "RS485").
-const TEN: u8 = 10;
-/// How long an RS485 encoder is silent while it stores a zero.
-const STORING: Micros = 40_000;
-
-/// How the shaft moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shaft {
-    /// Turns at time 0.
-    pub start: f64,
-    /// Revolutions per second.
-    pub speed: f64,
-    /// Turns by which it swings to both sides of that motion.
-    pub sway: f64,
-    /// Seconds of one swing to and fro.
-    pub period: f64,
-}
-
-impl Shaft {
-    /// A shaft that stands still.
-    #[must_use]
-    pub const fn still(turns: f64) -> Self {
-        Self {
-            start: turns,
-            speed: 0.0,
-            sway: 0.0,
-            period: 1.0,
-        }
-    }
-
-    /// A shaft that turns evenly.
-    #[must_use]
-    pub const fn turning(turns: f64, speed: f64) -> Self {
-        Self {
-            start: turns,
-            speed,
-            sway: 0.0,
-            period: 1.0,
-        }
-    }
-
-    /// Where it is, in turns.
-    ///
-    /// ```
-    /// use encoderscope::emulator::Shaft;
-    /// assert_eq!(Shaft::turning(0.5, 2.0).at(1_000_000), 2.5);
-    /// ```
-    #[must_use]
-    pub fn at(&self, now: Micros) -> f64 {
-        let seconds = now as f64 / 1e6;
-        self.start + self.speed * seconds + self.sway * swing(seconds / self.period)
-    }
-
-    /// How fast it turns, in revolutions per second.
-    #[must_use]
-    pub fn speed_at(&self, now: Micros) -> f64 {
-        (self.at(now + 500) - self.at(now.saturating_sub(500))) * 1000.0
-    }
-}
-
-/// The bits of `from` that are set in `value`, at the places that `to` gives their names.
-fn carried(value: u64, from: &[StatusBit], to: &[StatusBit]) -> u8 {
-    let set = from.iter().filter(|bit| bits::bit(value, bit.place));
-    set.fold(0, |sum, bit| sum | bit_named(to, bit.name))
-}
-
-/// The bit of a name; nothing where the table has no such bit.
-fn bit_named(table: &[StatusBit], name: &str) -> u8 {
-    let found = table.iter().find(|bit| bit.name == name);
-    found.map_or(0, |bit| bits::low_byte(bits::placed(1, bit.place)))
-}
-
-/// A smooth wave of period 1 between −1 and 1, two parabolas.
-fn swing(phase: f64) -> f64 {
-    let (_, x) = split(phase);
-    if x < 0.5 {
-        16.0 * x * (0.5 - x)
-    } else {
-        -16.0 * (x - 0.5) * (1.0 - x)
-    }
-}
-
-/// Whole turns and the part of a turn, which is never negative.
-fn split(turns: f64) -> (i64, f64) {
-    let whole = turns as i64;
-    let part = turns - whole as f64;
-    if part < 0.0 {
-        (whole - 1, part + 1.0)
-    } else {
-        (whole, part)
-    }
-}
-
-/// What goes wrong on the way.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Faults {
-    /// The adapter returns every request.
-    pub echo: bool,
-    /// No answers at all.
-    pub silent: bool,
-    /// Of 1000 reply bytes, how many have a bit turned over.
-    pub flip: u32,
-    /// Of 1000 reply bytes, how many get lost.
-    pub drop: u32,
-    /// Of 1000 reply bytes, how many are followed by a stray byte.
-    pub insert: u32,
-}
+/// An encoder answers this long after power-on (MPP and PT, "start-up"; IP-75: 0.15 s at most).
+const START_UP: Micros = 15_000;
+/// The zero inputs of the IP-75 act this long after power-on (IP-75, 5.1.1).
+const ZERO_INPUT: Micros = 3_000_000;
+/// ASI1 sends 3.33 thousand packets a second (IP-75, 5.3.1).
+const ASI1_INTERVAL: Micros = 300;
+/// A clocked word stays latched this long after its last bit (P+F article, t_m; IP-75, T_mu).
+const LATCHED: Micros = 20;
 
 /// An encoder.
 ///
@@ -136,12 +51,12 @@ pub struct Faults {
 /// ```
 #[derive(Debug)]
 pub struct Emulator {
-    profile: Profile,
+    decoder: Decoder,
     /// How the shaft moves.
     pub shaft: Shaft,
     /// What goes wrong on the way.
     pub faults: Faults,
-    /// The six status bits.
+    /// The status bits; those of the battery are added.
     pub status: u8,
     /// The position is not valid.
     pub error: bool,
@@ -149,205 +64,287 @@ pub struct Emulator {
     pub warning: bool,
     /// Degrees Celsius × 10.
     pub temperature: i32,
-    /// Turns that are taken off the shaft's.
-    zero: f64,
-    last: u8,
-    counted: u8,
-    silent_until: Micros,
-    random: u64,
-    output: VecDeque<(Micros, Vec<u8>)>,
+    /// How the turns are kept without power.
+    pub counter: Counter,
+    /// The battery of a BM model.
+    pub battery: Battery,
+    /// In which direction the code rises.
+    pub direction: Direction,
+    scales: Scales,
+    /// No zero has been set through the inputs of the IP-75.
+    zero_default: bool,
+    /// When a zero input acts, and which.
+    zero_input: Option<(Micros, ZeroInput)>,
+    /// The turns were lost while there was no power.
+    turns_lost: bool,
+    /// Where the shaft was when the power went; `None` while it is on.
+    off_at: Option<f64>,
+    ready_at: Micros,
+    talk: Talk,
+    /// When the next frame of a stream begins.
+    next_frame: Micros,
+    latched: Option<(Micros, BitString)>,
+    wire: Wire,
 }
 
 impl Emulator {
-    /// An encoder that is well.
+    /// An encoder that is well and has been on for a while.
     ///
     /// # Errors
     ///
     /// A parameter of the profile is out of range.
-    pub fn new(profile: Profile, shaft: Shaft) -> Result<Self, crate::profile::ProfileError> {
-        Decoder::new(profile)?;
+    pub fn new(profile: Profile, shaft: Shaft) -> Result<Self, ProfileError> {
         Ok(Self {
-            profile,
+            decoder: Decoder::new(profile)?,
             shaft,
             faults: Faults::default(),
             status: 0,
             error: false,
             warning: false,
             temperature: 312,
-            zero: 0.0,
-            last: 0,
-            counted: 0,
-            silent_until: 0,
-            random: 0x9e37_79b9_7f4a_7c15,
-            output: VecDeque::new(),
+            counter: Counter::Volatile,
+            battery: Battery::Good,
+            direction: Direction::Up,
+            scales: Scales::default(),
+            zero_default: true,
+            zero_input: None,
+            turns_lost: false,
+            off_at: None,
+            ready_at: 0,
+            talk: Talk::new(&profile),
+            next_frame: 0,
+            latched: None,
+            wire: Wire::new(),
         })
     }
 
-    /// When the next answer is due.
+    /// The profile.
     #[must_use]
-    pub fn deadline(&self) -> Option<Micros> {
-        self.output.front().map(|(at, _)| *at)
+    pub const fn profile(&self) -> &Profile {
+        self.decoder.profile()
     }
 
-    /// The next answer that has left the wire by `now`.
-    pub fn poll_output(&mut self, now: Micros) -> Option<Vec<u8>> {
-        if self.deadline()? > now {
-            return None;
+    /// The address that a BUS encoder answers to.
+    #[must_use]
+    pub const fn address(&self) -> u8 {
+        self.talk.address
+    }
+
+    /// When the next bytes are due.
+    #[must_use]
+    pub fn deadline(&self) -> Option<Micros> {
+        let stream = (self.is_streaming()).then_some(self.next_frame);
+        match (self.wire.deadline(), stream) {
+            (Some(sent), Some(next)) => Some(sent.min(next)),
+            (sent, next) => sent.or(next),
         }
-        self.output.pop_front().map(|(_, bytes)| bytes)
+    }
+
+    /// The next bytes that have left the wire by `now`.
+    pub fn poll_output(&mut self, now: Micros) -> Option<Vec<u8>> {
+        self.stream(now);
+        let bytes = self.wire.take(now)?;
+        (!self.faults.unplugged).then_some(bytes)
     }
 
     /// The host has sent `bytes`.
     pub fn handle_input(&mut self, now: Micros, bytes: &[u8]) {
-        for byte in bytes {
-            let mut line = Vec::new();
-            if self.faults.echo {
-                line.push(*byte);
-            }
-            if now >= self.silent_until && !self.faults.silent {
-                if let Some(reply) = self.answer(now, *byte) {
-                    self.disturb(&reply.into_bytes(), &mut line);
-                }
-                self.last = *byte;
-            }
-            if !line.is_empty() {
-                let on_wire = line.len() as u64 * 10_000_000 / u64::from(self.profile.baud);
-                self.output.push_back((now + TURNAROUND + on_wire, line));
-            }
+        if self.faults.unplugged {
+            return;
         }
+        let polled = self.profile().format.spec().link == Link::Polled;
+        for byte in bytes {
+            let echo: &[u8] = if self.faults.echo { &[*byte] } else { &[] };
+            let hears = polled && self.is_on(now) && !self.faults.silent;
+            let reply = match hears {
+                true => self.answer(now, *byte),
+                false => Vec::new(),
+            };
+            let baud = self.profile().baud;
+            let start = now + answers::TURNAROUND;
+            self.wire.send(&self.faults, start, baud, echo, &reply);
+        }
+    }
+
+    /// Clocks out `count` bits of a clocked format; what a master sees from the first bit on.
+    ///
+    /// Within the time-out after a word the same word comes again, and a master that keeps
+    /// clocking an SSI encoder gets it again behind a 0 (multi-transmission).
+    ///
+    /// ```
+    /// use encoderscope::{emulator::{Emulator, Shaft}, profile::Profile};
+    /// let profile = Profile::parse([("format", "ssi7")])?;
+    /// let mut encoder = Emulator::new(profile, Shaft::still(0.5))?;
+    /// assert_eq!(encoder.clock(0, 30).as_bits().bytes(), [0x00, 0x02, 0x00, 0x08]);
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    pub fn clock(&mut self, now: Micros, count: usize) -> BitString {
+        let off = self.faults.silent || self.faults.unplugged || !self.is_on(now);
+        let word = match self.latched.take() {
+            Some((until, word)) if now <= until => word,
+            _ => self.decoder.encode(&self.values(now)),
+        };
+        let rings = self.profile().format == Format::SsiTree;
+        // In the gap behind its word the data line of an IP-75 is the error flag.
+        let gap = self.profile().format == Format::Ssi7 && self.error;
+        let len = word.as_bits().len();
+        let mut out = BitString::default();
+        for index in 0..count {
+            let at = if rings { index % (len + 1) } else { index };
+            out.push(off || word.as_bits().bit(at) || gap && at >= len);
+        }
+        self.latched = Some((now + LATCHED, word));
+        let flips = Faults {
+            drop: 0,
+            insert: 0,
+            ..self.faults
+        };
+        let bytes = self.wire.disturbed(&flips, out.as_bits().bytes());
+        for (index, byte) in bytes.iter().enumerate() {
+            out.write(bits::Span::new(index * 8, 8), u64::from(*byte));
+        }
+        out
+    }
+
+    /// The power goes; what the shaft does meanwhile, only a battery counts.
+    pub fn power_off(&mut self, now: Micros) {
+        self.settle(now);
+        self.off_at.get_or_insert(self.shaft.at(now));
+        self.wire.drop_all();
+        self.latched = None;
+        self.zero_input = None;
+    }
+
+    /// The power comes back, with a zero input of the IP-75 tied to ground or with none.
+    pub fn power_on(&mut self, now: Micros, input: Option<ZeroInput>) {
+        let Some(off) = self.off_at.take() else {
+            return;
+        };
+        let shaft = self.shaft.at(now);
+        let mechanical = self.profile().format == Format::SsiTree;
+        self.turns_lost = false;
+        if self.profile().turns_bits > 0 && !mechanical {
+            let slip = counter::slipped(self.counter, self.battery, off, shaft);
+            let lost = split(self.scales.position(shaft, self.direction)).0 as f64;
+            self.scales.shift(slip.unwrap_or(lost), self.direction);
+            self.turns_lost = self.counter == Counter::Battery && slip.is_none();
+        }
+        self.ready_at = now + START_UP;
+        self.next_frame = self.ready_at;
+        self.zero_input = input.map(|input| (now + ZERO_INPUT, input));
+        self.talk = self.talk.restarted(self.decoder.profile());
+    }
+
+    /// The input PRESET1 of a P+F encoder: the present position becomes 0.
+    pub fn preset(&mut self, now: Micros) {
+        self.scales.preset(self.shaft.at(now), self.direction);
     }
 
     /// The numbers of this moment.
     #[must_use]
     pub fn values(&self, now: Micros) -> Values {
-        let (turns, part) = split(self.shaft.at(now) - self.zero);
-        let codes = bits::codes(self.profile.angle_bits) as f64;
-        let (status, alarm) = match self.profile.format {
-            Format::T485 => (0, carried(u64::from(self.status), STATUS, t485::ALARM)),
-            Format::BissC | Format::Rs485 => (self.status, 0),
+        let profile = self.profile();
+        let (turns, part) = split(self.scales.position(self.shaft.at(now), self.direction));
+        let codes = bits::codes(profile.angle_bits) as f64;
+        let (battery, battery_error, battery_warning) = self.battery_status();
+        let shown = self.status | battery;
+        let (status, alarm) = match (profile.format, profile.dialect) {
+            (Format::T485, Dialect::Mpp) => (0, carried(shown, STATUS, t485::ALARM)),
+            (Format::T485, Dialect::Tamagawa) => (0, carried(shown, STATUS, t485::TAMAGAWA_ALARM)),
+            _ => (shown, 0),
         };
+        let wide = bits::slice(turns as u64, 0, profile.turns_bits as usize);
         Values {
-            turns: Some(bits::slice(
-                turns as u64,
-                0,
-                self.profile.turns_bits as usize,
-            )),
+            turns: Some(wide as i64),
             angle: Some((part * codes) as u64),
-            error: Some(self.error),
-            warning: Some(self.warning),
+            error: Some(self.error || battery_error),
+            warning: Some(self.warning || battery_warning),
+            zero_default: Some(self.zero_default),
             status: Some(status),
             alarm: Some(alarm),
-            enid: Some(if self.profile.angle_bits == 17 {
-                0x11
-            } else {
-                0x17
-            }),
+            enid: Some(if profile.angle_bits == 17 { 0x11 } else { 0x17 }),
             speed: Some((self.shaft.speed_at(now) * 10.0) as i32),
             temperature: Some(self.temperature),
-            count: Some(self.counted),
+            address: Some(self.talk.address),
+            count: Some(self.talk.counted),
             ..Values::default()
         }
     }
 
-    fn answer(&mut self, now: Micros, byte: u8) -> Option<BitString> {
-        match self.profile.format {
-            Format::T485 => Some(self.answer_t485(now, byte)),
-            Format::Rs485 => self.answer_rs485(now, byte),
-            Format::BissC => None,
+    /// The battery's status bits, and whether they are an error or a warning.
+    fn battery_status(&self) -> (u8, bool, bool) {
+        if self.counter != Counter::Battery {
+            return (0, false, false);
         }
-    }
-
-    fn resolved(&self, layout: &'static Layout) -> Resolved {
-        Resolved::new(layout, Shape::of(self.profile))
-    }
-
-    fn answer_t485(&mut self, now: Micros, byte: u8) -> BitString {
-        use t485::Request;
-        let request = Request::of_byte(byte).filter(|request| {
-            // MPP and PT know these five; the others are Tamagawa's own.
-            matches!(
-                request,
-                Request::Angle
-                    | Request::Turns
-                    | Request::All
-                    | Request::ResetAngle
-                    | Request::ResetTurns
-            )
-        });
-        self.count_resets(now, byte, request);
-        let layout = self.resolved(request.unwrap_or(Request::Angle).reply());
-        let mut values = self.values(now);
-        if request.is_none() {
-            values.status = Some(bit_named(t485::STATUS_FIELD, "communication error"));
-        }
-        let mut out = layout.encode(&values);
-        out.write(bits::Span::new(0, 8), u64::from(byte));
-        layout.seal(&mut out, Role::Crc);
-        out
-    }
-
-    fn count_resets(&mut self, now: Micros, byte: u8, request: Option<t485::Request>) {
-        self.counted = if self.last == byte {
-            self.counted.saturating_add(1)
-        } else {
-            1
+        let low = bit_named(STATUS, "battery low");
+        let lost = bit_named(STATUS, "battery disconnected");
+        let (bits, error, warning) = match self.battery {
+            Battery::Good => (0, false, false),
+            Battery::Low => (low, false, true),
+            Battery::Empty => (low, true, false),
+            Battery::Absent => (lost, true, false),
         };
-        if self.counted == TEN {
-            let (turns, part) = split(self.shaft.at(now) - self.zero);
-            match request {
-                Some(t485::Request::ResetAngle) => self.zero += part,
-                Some(t485::Request::ResetTurns) => self.zero += turns as f64,
-                _ => {}
-            }
+        match self.turns_lost {
+            true => (bits | lost, true, warning),
+            false => (bits, error, warning),
         }
     }
 
-    fn answer_rs485(&mut self, now: Micros, byte: u8) -> Option<BitString> {
-        let command = rs485::Command::of_byte(byte)?;
-        match command {
-            rs485::Command::Zero if self.last == rs485::Command::Position.byte() => {
-                self.counted += 1;
-            }
-            rs485::Command::Zero => self.counted = 1,
-            rs485::Command::Position if self.last == rs485::Command::Zero.byte() => {}
-            _ => self.counted = 0,
-        }
-        let reply = self.resolved(command.reply()).encode(&self.values(now));
-        if self.counted == TEN {
-            self.zero = self.shaft.at(now);
-            self.counted = 0;
-            self.silent_until = now + STORING;
-        }
-        Some(reply)
+    fn is_on(&self, now: Micros) -> bool {
+        self.off_at.is_none() && now >= self.ready_at
     }
 
-    fn disturb(&mut self, reply: &[u8], line: &mut Vec<u8>) {
-        for byte in reply {
-            let mut byte = *byte;
-            if self.chance(self.faults.flip) {
-                let place = (self.next() % 8) as u32;
-                byte ^= bits::low_byte(bits::placed(1, place));
-            }
-            if !self.chance(self.faults.drop) {
-                line.push(byte);
-            }
-            if self.chance(self.faults.insert) {
-                let stray = bits::low_byte(self.next());
-                line.push(stray);
-            }
+    fn is_streaming(&self) -> bool {
+        let stream = self.profile().format.spec().link == Link::Stream;
+        stream && self.off_at.is_none() && !self.faults.silent && !self.faults.unplugged
+    }
+
+    /// Sends the frames of a stream that begin by `now`.
+    fn stream(&mut self, now: Micros) {
+        self.settle(now);
+        let interval = match self.profile().format {
+            Format::Period => period::INTERVAL,
+            Format::Asi4 => asi4::INTERVAL,
+            _ => ASI1_INTERVAL,
+        };
+        if !self.is_streaming() {
+            // A stream that was held up does not catch up.
+            self.next_frame = self.next_frame.max(now);
+            return;
+        }
+        while self.next_frame <= now {
+            let start = self.next_frame;
+            let frame = self.decoder.encode(&self.values(start)).into_bytes();
+            let baud = self.profile().baud;
+            self.wire.send(&self.faults, start, baud, &[], &frame);
+            self.next_frame += interval;
         }
     }
 
-    fn chance(&mut self, per_mille: u32) -> bool {
-        per_mille > 0 && self.next() % 1000 < u64::from(per_mille)
+    /// Lets a zero input act when its time has come.
+    fn settle(&mut self, now: Micros) {
+        let Some((at, input)) = self.zero_input.filter(|(at, _)| *at <= now) else {
+            return;
+        };
+        self.zero_input = None;
+        self.zero_default = input == ZeroInput::Reset;
+        self.scales = Scales::default();
+        if input == ZeroInput::Set {
+            self.scales.shift(self.shaft.at(at), Direction::Up);
+        }
     }
+}
 
-    /// A linear congruential generator (Knuth's MMIX); its high half is random enough here.
-    fn next(&mut self) -> u64 {
-        self.random = self
-            .random
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        bits::slice(self.random, 33, 31)
-    }
+/// The bits of `from` that are set in `value`, at the places that `to` gives their names.
+fn carried(value: u8, from: &[StatusBit], to: &[StatusBit]) -> u8 {
+    let set = from
+        .iter()
+        .filter(|bit| bits::bit(value.into(), bit.place));
+    set.fold(0, |sum, bit| sum | bit_named(to, bit.name))
+}
+
+/// The bit of a name; nothing where the table has no such bit.
+fn bit_named(table: &[StatusBit], name: &str) -> u8 {
+    let found = table.iter().find(|bit| bit.name == name);
+    found.map_or(0, |bit| bits::low_byte(bits::placed(1, bit.place)))
 }

@@ -2,8 +2,8 @@
 
 use crate::{
     bits::{self, Bits, Span},
-    layout::{Active, Class, Field, Resolved, Role},
-    reading::{Checked, Fault},
+    layout::{Active, Class, Coding, Covered, Field, Resolved, Role, Weight},
+    reading::Fault,
 };
 use alloc::{
     format,
@@ -69,7 +69,7 @@ impl Resolved {
                 .collect::<Vec<_>>()
                 .join(" "),
             raw,
-            text: text(field, raw, bits),
+            text: self.text(field, raw, bits),
             bits: self.named_bits(field, raw),
             fault: self.fault(field, bits),
             spans,
@@ -90,77 +90,99 @@ impl Resolved {
                 Some(BitNote {
                     at: part.span.end() - 1 - (named.place - part.place) as usize,
                     name: named.name,
-                    set: bits::bit(raw, named.place),
+                    set: bits::bit(field.active_high(raw), named.place),
                     doc: named.doc,
                     role: named.role,
                 })
             })
             .collect()
     }
-}
 
-/// What the number of a field says.
-fn text(field: &Field, raw: u64, bits: Bits<'_>) -> String {
-    let asserted = (raw != 0) == (field.row.active == Active::High);
-    match field.row.role {
-        Role::Turns => format!("{} turns", grouped(raw)),
-        Role::Angle => format!(
-            "{} of {} → {}°",
-            grouped(raw),
-            grouped(u64::try_from(bits::codes(field.width)).unwrap_or(u64::MAX)),
-            degrees_text(raw, field.width, 4)
-        ),
-        Role::Error if asserted => "error: the position is not valid".into(),
-        Role::Error => "no error: the position is valid".into(),
-        Role::Warning if asserted => "warning: something is near its limit".into(),
-        Role::Warning => "no warning".into(),
-        Role::Status | Role::Alarm => {
-            let set: Vec<_> = field
-                .row
-                .bits
-                .iter()
-                .filter(|named| bits::bit(raw, named.place))
-                .map(|named| named.name)
-                .collect();
-            if set.is_empty() && raw == 0 {
-                "all well".into()
-            } else if set.is_empty() {
-                "bits without a name are set".into()
-            } else {
-                set.join(", ")
+    /// What the number of a field says.
+    fn text(&self, field: &Field, raw: u64, bits: Bits<'_>) -> String {
+        let asserted = (raw != 0) == (field.row.active == Active::High);
+        let angle_bits = self.shape.profile.angle_bits;
+        let tenths = || tenths(bits::signed(raw, field.width as usize) as i32);
+        let text = match field.row.role {
+            Role::Turns => {
+                let turns = self.values(bits).turns.unwrap_or(0);
+                let sign = if turns < 0 { "−" } else { "" };
+                format!("{sign}{} turns", grouped(turns.unsigned_abs()))
             }
+            Role::Angle => format!(
+                "{} of {} → {}°",
+                grouped(raw),
+                grouped(u64::try_from(bits::codes(angle_bits)).unwrap_or(u64::MAX)),
+                degrees_text(raw, angle_bits, 4)
+            ),
+            Role::Error if asserted => "error: the position is not valid".into(),
+            Role::Error => "no error: the position is valid".into(),
+            Role::Warning if asserted => "warning: something is near its limit".into(),
+            Role::Warning => "no warning".into(),
+            Role::Valid if asserted => "the position is valid".into(),
+            Role::Valid => "the position is not valid".into(),
+            Role::ZeroDefault if asserted => "no zero has been set".into(),
+            Role::ZeroDefault => "a zero has been set".into(),
+            Role::Status | Role::Alarm => {
+                let set: Vec<_> = self
+                    .named_bits(field, raw)
+                    .iter()
+                    .filter(|named| named.set)
+                    .map(|named| named.name)
+                    .collect();
+                match set.is_empty() {
+                    false => set.join(", "),
+                    true if field.active_high(raw) == 0 => "all well".into(),
+                    true => "bits without a name are set".into(),
+                }
+            }
+            Role::Enid | Role::MemoryData => format!("0x{raw:02X}"),
+            Role::Speed => format!("{} rev/s", tenths()),
+            Role::Temperature => format!("{} °C", tenths()),
+            Role::Count => format!("{raw} counted"),
+            Role::Operation => format!("operation {raw}"),
+            Role::Address => format!("device 0x{raw:02X}"),
+            Role::MemoryAddress => format!("address 0x{raw:02X}"),
+            Role::Crc | Role::Parity => self.check_text(field, bits),
+            Role::Padding if raw == 0 => "zero".into(),
+            Role::Padding => "not zero: the number is wider than the profile says".into(),
+            Role::Repeat => match self.fault(field, bits) {
+                None => "the same word again".into(),
+                Some(_) => "not the same word again".into(),
+            },
+            Role::Framing => String::new(),
+        };
+        match self.coding(field) {
+            Some((Coding::Gray, _)) => {
+                let width = field.width as usize;
+                format!("{text} (Gray {:0width$b})", self.wire(field, bits))
+            }
+            _ => text,
         }
-        Role::Enid | Role::MemoryData => format!("0x{raw:02X}"),
-        Role::Speed => format!("{} rev/s", tenths(bits::signed16(raw))),
-        Role::Temperature => format!("{} °C", tenths(bits::signed16(raw))),
-        Role::Count => format!("{raw} counted"),
-        Role::Operation => format!("data ID {raw}"),
-        Role::MemoryAddress => format!("address 0x{raw:02X}"),
-        Role::Crc | Role::Parity => check_text(field, raw, bits),
-        Role::Padding if raw == 0 => "zero".into(),
-        Role::Padding => "not zero: the number is wider than the profile says".into(),
-        Role::Framing => String::new(),
     }
-}
 
-fn check_text(field: &Field, received: u64, bits: Bits<'_>) -> String {
-    let Some((sum, over)) = field.cover else {
-        return String::new();
-    };
-    let checked = Checked {
-        expected: sum.compute(bits, over),
-        received,
-    };
-    let verdict = if checked.ok() { "holds" } else { "fails" };
-    let name = sum.name();
-    let len = over.len;
-    if sum.width() == 1 {
-        format!("{verdict}: {name} over {len} bits")
-    } else {
-        format!(
-            "{verdict}: computed 0x{:02X}, {name}, over {len} bits",
-            checked.expected
-        )
+    fn check_text(&self, field: &Field, bits: Bits<'_>) -> String {
+        let (Some((sum, covered)), Some(checked)) = (field.cover, self.checked(field, bits)) else {
+            return String::new();
+        };
+        let name = sum.name();
+        let over = match covered {
+            Covered::Run(span) => format!("over {} bits", span.len),
+            Covered::Frame => format!("over {} bits with its own as 0", self.len),
+        };
+        let open = match field.row.weight {
+            Weight::Advisory if !checked.ok() => "; the manual leaves this rule open",
+            _ => "",
+        };
+        let verdict = if checked.ok() { "holds" } else { "fails" };
+        if sum.width() == 1 {
+            format!("{verdict}: {name} {over}{open}")
+        } else {
+            format!(
+                "{verdict}: computed 0x{:02X}, {name}, {over}{open}",
+                checked.expected
+            )
+        }
     }
 }
 

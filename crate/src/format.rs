@@ -1,24 +1,56 @@
 //! The wire formats, one manual page a file.
+//!
+//! To add a format, write its file: a [`Spec`] with its name, parameters and limits, its layout
+//! tables, and how its frames are told apart; then name it in [`Format`].
 
+pub mod asi1;
+pub mod asi4;
 pub mod biss_c;
+pub mod bus;
+pub mod period;
 pub mod rs485;
+pub mod ssi;
+pub mod ssi7;
+pub mod ssi_tree;
 pub mod t485;
 
-use crate::{
-    layout::StatusBit,
-    profile::{Justify, Profile},
-};
+use crate::{layout::StatusBit, profile::Profile};
 use alloc::{string::String, vec::Vec};
 
 /// A wire format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
+    /// MPP and PT SSI: [`ssi`].
+    Ssi,
     /// BiSS-C: [`biss_c`].
     BissC,
     /// MPP and PT commands over RS485 and RS422: [`rs485`].
     Rs485,
     /// Tamagawa-compatible T485: [`t485`].
     T485,
+    /// MPP and PT high-speed bus: [`bus`].
+    Bus,
+    /// MPP and PT free-running: [`period`].
+    Period,
+    /// IP-75 binary stream: [`asi1`].
+    Asi1,
+    /// IP-75 text stream: [`asi4`].
+    Asi4,
+    /// IP-75 SSI: [`ssi7`].
+    Ssi7,
+    /// Pepperl+Fuchs and the classic SSI word: [`ssi_tree`].
+    SsiTree,
+}
+
+/// How frames come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Link {
+    /// A master clocks them out; a USB adapter cannot.
+    Clocked,
+    /// A host asks over a serial line and the encoder answers.
+    Polled,
+    /// The encoder sends them over a serial line unasked.
+    Stream,
 }
 
 /// What a dump of a format consists of.
@@ -28,6 +60,8 @@ pub enum Medium {
     Bits,
     /// The whole input is one stream of bytes.
     Bytes,
+    /// As bytes, but lines of decimal numbers stand for themselves.
+    Text,
 }
 
 /// How wide the numbers of a format can be, in bits.
@@ -39,30 +73,69 @@ pub struct Limits {
     pub turns: u32,
     /// Both together.
     pub together: u32,
+    /// Shortest and longest frame, where its length is a parameter.
+    pub frame: (u32, u32),
+}
+
+/// What is to be known of a format before any frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Spec {
+    /// The name in parameters and links.
+    pub name: &'static str,
+    /// The name for people.
+    pub title: &'static str,
+    /// How frames come.
+    pub link: Link,
+    /// The names of the parameters that matter.
+    pub parameters: &'static [&'static str],
+    /// How wide the numbers can be.
+    pub limits: Limits,
+    /// What omitted parameters are: the widest encoder of the manual that speaks the format.
+    pub default: Profile,
 }
 
 impl Format {
-    /// All formats, in the order of their names.
-    pub const ALL: &[Self] = &[Self::BissC, Self::Rs485, Self::T485];
+    /// All formats, in the order of their manuals' pages.
+    pub const ALL: &[Self] = &[
+        Self::Ssi,
+        Self::BissC,
+        Self::Rs485,
+        Self::T485,
+        Self::Bus,
+        Self::Period,
+        Self::Asi1,
+        Self::Asi4,
+        Self::Ssi7,
+        Self::SsiTree,
+    ];
+
+    /// What is to be known of the format before any frame.
+    #[must_use]
+    pub const fn spec(self) -> &'static Spec {
+        match self {
+            Self::Ssi => &ssi::SPEC,
+            Self::BissC => &biss_c::SPEC,
+            Self::Rs485 => &rs485::SPEC,
+            Self::T485 => &t485::SPEC,
+            Self::Bus => &bus::SPEC,
+            Self::Period => &period::SPEC,
+            Self::Asi1 => &asi1::SPEC,
+            Self::Asi4 => &asi4::SPEC,
+            Self::Ssi7 => &ssi7::SPEC,
+            Self::SsiTree => &ssi_tree::SPEC,
+        }
+    }
 
     /// The name in parameters and links.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::BissC => "biss-c",
-            Self::Rs485 => "rs485",
-            Self::T485 => "t485",
-        }
+        self.spec().name
     }
 
     /// The name for people.
     #[must_use]
     pub const fn title(self) -> &'static str {
-        match self {
-            Self::BissC => "BiSS-C",
-            Self::Rs485 => "RS485",
-            Self::T485 => "T485",
-        }
+        self.spec().title
     }
 
     /// The format of a name.
@@ -87,76 +160,35 @@ impl Format {
     /// What a dump consists of.
     #[must_use]
     pub const fn medium(self) -> Medium {
-        match self {
-            Self::BissC => Medium::Bits,
-            Self::Rs485 | Self::T485 => Medium::Bytes,
+        match (self, self.spec().link) {
+            (_, Link::Clocked) => Medium::Bits,
+            (Self::Asi4, _) => Medium::Text,
+            (_, Link::Polled | Link::Stream) => Medium::Bytes,
         }
     }
 
-    /// Whether a host asks and the encoder answers, over a serial port.
+    /// Whether the encoder is read over a serial port.
     #[must_use]
-    pub const fn is_polled(self) -> bool {
-        match self {
-            Self::BissC => false,
-            Self::Rs485 | Self::T485 => true,
-        }
+    pub const fn is_serial(self) -> bool {
+        !matches!(self.spec().link, Link::Clocked)
     }
 
     /// The names of the parameters that matter to this format.
     #[must_use]
     pub const fn parameters(self) -> &'static [&'static str] {
-        match self {
-            Self::BissC => &[
-                "angle-bits",
-                "turns-bits",
-                "status-bits",
-                "ack-bits",
-                "justify",
-            ],
-            Self::Rs485 => &["angle-bits", "turns-bits", "command", "baud"],
-            Self::T485 => &["angle-bits", "turns-bits", "baud"],
-        }
+        self.spec().parameters
     }
 
     /// How wide the numbers can be.
     #[must_use]
     pub const fn limits(self) -> Limits {
-        match self {
-            Self::BissC => Limits {
-                angle: 64,
-                turns: 32,
-                together: 64,
-            },
-            Self::Rs485 => Limits {
-                angle: 24,
-                turns: 16,
-                together: 40,
-            },
-            Self::T485 => Limits {
-                angle: 24,
-                turns: 24,
-                together: 48,
-            },
-        }
+        self.spec().limits
     }
 
-    /// The profile that omitted parameters are taken from: the widest encoder of the MPP and
-    /// PT families that speaks the format.
+    /// The profile that omitted parameters are taken from.
     #[must_use]
     pub const fn default_profile(self) -> Profile {
-        Profile {
-            format: self,
-            angle_bits: match self {
-                Self::BissC | Self::Rs485 => 24,
-                Self::T485 => 23,
-            },
-            turns_bits: 16,
-            status_bits: 6,
-            ack_bits: 5,
-            command: rs485::Command::Status,
-            baud: 2_500_000,
-            justify: Justify::Left,
-        }
+        self.spec().default
     }
 }
 

@@ -15,12 +15,19 @@
 //!
 //! The best phase wins when it leads clearly; otherwise its frame is *not sure*, and no
 //! reading comes out of it. A frame in the held phase that passes and does not end in 0 needs
-//! no weighing: that is the fast path. All decisions depend on the bytes alone, never on how
-//! they were cut.
+//! no weighing: that is the fast path. A stream without requests is joined only where a second
+//! frame follows the first. Text is framed by its line ends ([`text`]). All decisions depend on
+//! the bytes alone, never on how they were cut.
 
 mod evidence;
+mod text;
 
-use crate::{bits::Bits, decode::Decoder, layout::Resolved};
+use crate::{
+    bits::Bits,
+    decode::Decoder,
+    format::{Format, Link},
+    layout::Resolved,
+};
 use alloc::vec::Vec;
 use core::fmt;
 use evidence::{Chain, Position, WINDOW};
@@ -96,22 +103,26 @@ impl fmt::Display for Why {
 /// ```
 /// use encoderscope::{decode::Decoder, framing::{Framer, PieceKind}, profile::Profile};
 /// let decoder = Decoder::new(Profile::parse([("format", "t485")])?)?;
-/// let mut framer = Framer::new(&decoder);
+/// let mut framer = Framer::at_start();
 /// let mut frames = 0;
+/// let mut count = |piece: encoderscope::framing::Piece<'_>| {
+///     frames += usize::from(matches!(piece.kind, PieceKind::Frame { .. }));
+/// };
 /// for byte in [0x77, 0x02, 0x20, 0xb4, 0xbd, 0x1c, 0x37] {
-///     framer.push(&[byte], &mut |piece| frames += usize::from(matches!(piece.kind, PieceKind::Frame { .. })));
+///     framer.push(&decoder, &[byte], &mut count);
 /// }
-/// framer.finish(&mut |piece| frames += usize::from(matches!(piece.kind, PieceKind::Frame { .. })));
+/// framer.finish(&decoder, &mut count);
 /// assert_eq!(frames, 1);
 /// # Ok::<(), encoderscope::profile::ProfileError>(())
 /// ```
-#[derive(Debug)]
-pub struct Framer<'d> {
-    decoder: &'d Decoder,
+#[derive(Clone, Debug)]
+pub struct Framer {
     /// Bytes not yet decided on, behind those of the open skip.
     buffer: Vec<u8>,
     /// Offset of the first byte of `buffer` in the input.
     base: u64,
+    /// The byte before `buffer`.
+    before: Option<u8>,
     /// Bytes at the front of `buffer` that are skipped but not yet reported.
     skipped: usize,
     why: Why,
@@ -143,14 +154,14 @@ enum Trust {
     Last,
 }
 
-impl<'d> Framer<'d> {
-    /// A framer at the start of an input.
+impl Framer {
+    /// A framer at the start of a dump, which probably begins with a whole frame.
     #[must_use]
-    pub const fn new(decoder: &'d Decoder) -> Self {
+    pub const fn at_start() -> Self {
         Self {
-            decoder,
             buffer: Vec::new(),
             base: 0,
+            before: None,
             skipped: 0,
             why: Why::NoFrame,
             held: false,
@@ -159,15 +170,23 @@ impl<'d> Framer<'d> {
         }
     }
 
+    /// A framer that joins a running stream somewhere.
+    #[must_use]
+    pub const fn joining() -> Self {
+        let mut framer = Self::at_start();
+        framer.contiguous = false;
+        framer
+    }
+
     /// Takes more input.
-    pub fn push(&mut self, bytes: &[u8], sink: &mut Sink<'_>) {
+    pub fn push(&mut self, decoder: &Decoder, bytes: &[u8], sink: &mut Sink<'_>) {
         self.buffer.extend_from_slice(bytes);
-        self.run(Ending::Open, sink);
+        self.run(decoder, Ending::Open, sink);
     }
 
     /// The input has ended; reports what is left.
-    pub fn finish(&mut self, sink: &mut Sink<'_>) {
-        self.run(Ending::Closed, sink);
+    pub fn finish(&mut self, decoder: &Decoder, sink: &mut Sink<'_>) {
+        self.run(decoder, Ending::Closed, sink);
         self.flush(0, self.skipped, sink);
         self.base += self.skipped as u64;
         self.buffer.clear();
@@ -175,12 +194,18 @@ impl<'d> Framer<'d> {
         self.held = false;
     }
 
-    fn run(&mut self, ending: Ending, sink: &mut Sink<'_>) {
+    fn run(&mut self, decoder: &Decoder, ending: Ending, sink: &mut Sink<'_>) {
         // `from` is where unreported bytes begin; `from + skipped` is where deciding goes on.
         let mut from = 0;
         loop {
-            let at = from + self.skipped;
-            match self.step(at, ending) {
+            let mut at = from + self.skipped;
+            if self.held && self.beyond_doubt(decoder, &self.buffer[at..]).is_some() {
+                self.flush(from, self.skipped, sink);
+                self.skipped = 0;
+                from = self.hold(decoder, at, sink);
+                at = from;
+            }
+            match self.step(decoder, at, ending) {
                 Step::Wait => break,
                 Step::Frame(layout, trust) => {
                     let sure = trust != Trust::Unsure;
@@ -196,8 +221,7 @@ impl<'d> Framer<'d> {
                     self.held = matches!(trust, Trust::Sure | Trust::Kept);
                     if trust == Trust::Sure {
                         self.contiguous = true;
-                        let values = layout.values(Bits::of_bytes(bytes));
-                        self.last = Position::of(layout, &values).or(self.last);
+                        self.last = Position::of(layout, bytes).or(self.last);
                     }
                     from = end;
                     self.skipped = 0;
@@ -215,8 +239,48 @@ impl<'d> Framer<'d> {
                 }
             }
         }
+        if let Some(last) = from.checked_sub(1) {
+            self.before = self.buffer.get(last).copied();
+        }
         self.buffer.drain(..from);
         self.base += from as u64;
+    }
+
+    /// Reports frames for as long as the held phase passes beyond doubt; returns where it stops.
+    fn hold(&mut self, decoder: &Decoder, from: usize, sink: &mut Sink<'_>) -> usize {
+        let mut at = from;
+        let mut moved = None;
+        while let Some(layout) = self.beyond_doubt(decoder, &self.buffer[at..]) {
+            let bytes = &self.buffer[at..at + layout.len / 8];
+            sink(Piece {
+                start: self.base + at as u64,
+                bytes,
+                kind: PieceKind::Frame { layout, sure: true },
+            });
+            if layout.has_angle {
+                moved = Some((layout, bytes));
+            }
+            at += bytes.len();
+        }
+        if let Some((layout, bytes)) = moved {
+            self.last = Position::of(layout, bytes).or(self.last);
+        }
+        self.contiguous |= at > from;
+        at
+    }
+
+    /// The layout of a frame of the held phase that needs no weighing.
+    fn beyond_doubt<'d>(&self, decoder: &'d Decoder, rest: &[u8]) -> Option<&'d Resolved> {
+        let layout = passing(decoder, rest)?;
+        let len = layout.len / 8;
+        if !layout.is_checked || layout.is_zero_led && rest[len - 1] == 0 {
+            return None;
+        }
+        // A request before its reply may pass as the first byte of a frame.
+        let asks = decoder.is_request(rest[0])
+            && (!decoder.echoes() || rest.get(1) == Some(&rest[0]))
+            && (rest.len() == len || passing(decoder, &rest[1..]).is_some());
+        (!asks).then_some(layout)
     }
 
     fn flush(&self, from: usize, count: usize, sink: &mut Sink<'_>) {
@@ -229,36 +293,33 @@ impl<'d> Framer<'d> {
         }
     }
 
-    fn step(&self, at: usize, ending: Ending) -> Step<'d> {
+    fn step<'d>(&self, decoder: &'d Decoder, at: usize, ending: Ending) -> Step<'d> {
         let rest = &self.buffer[at..];
         if rest.is_empty() {
             return Step::Wait;
         }
-        let held = self.passing(rest);
-        // A request before its reply may pass as the first byte of a frame.
-        let asks = self.decoder.is_request(rest[0]);
-        if let Some(layout) = held
-            && self.held
-            && rest[layout.len / 8 - 1] != 0
-            && !(asks && (rest.len() == layout.len / 8 || self.passing(&rest[1..]).is_some()))
-        {
-            return Step::Frame(layout, Trust::Sure);
-        }
-        let longest = self.decoder.longest();
         let open = matches!(ending, Ending::Open);
-        if open && rest.len() < (WINDOW + 2) * (longest + 1) {
+        if decoder.profile().format == Format::Asi4 {
+            let before = match at.checked_sub(1) {
+                Some(last) => Some(self.buffer[last]),
+                None => self.before,
+            };
+            return self.text_step(decoder, rest, before, open);
+        }
+        if open && rest.len() < (WINDOW + 2) * (decoder.longest() + 1) {
             return Step::Wait;
         }
-        self.weigh(rest, held.is_some())
+        self.weigh(decoder, rest)
     }
 
     /// Decides by the evidence for every phase.
-    fn weigh(&self, rest: &[u8], passes: bool) -> Step<'d> {
-        let first = self.decoder.layout(rest[0]);
+    fn weigh<'d>(&self, decoder: &'d Decoder, rest: &[u8]) -> Step<'d> {
+        let passes = passing(decoder, rest).is_some();
+        let first = decoder.layout(rest);
         let anchored = self.held || self.contiguous;
         let mut own = None;
         if passes || (anchored && first.is_some_and(|layout| layout.len / 8 <= rest.len())) {
-            let chain = self.chain(rest, 0, self.last);
+            let chain = chain(decoder, rest, 0, self.last);
             let bonus = if self.held {
                 HELD
             } else if anchored {
@@ -269,12 +330,12 @@ impl<'d> Framer<'d> {
             own = Some(chain.plus(bonus));
         }
         let mut other: Option<(usize, i32)> = None;
-        for shift in 1..self.decoder.longest().min(rest.len()) {
+        for shift in 1..decoder.longest().min(rest.len()) {
             let visited = own.as_ref().is_some_and(|own| own.visits(shift));
-            if visited || self.passing(&rest[shift..]).is_none() || self.is_late(rest, shift) {
+            if visited || passing(decoder, &rest[shift..]).is_none() || is_late(decoder, rest, shift) {
                 continue;
             }
-            let score = self.chain(rest, shift, self.last).score;
+            let score = chain(decoder, rest, shift, self.last).score;
             if other.is_none_or(|(_, best)| score > best) {
                 other = Some((shift, score));
             }
@@ -286,7 +347,13 @@ impl<'d> Framer<'d> {
                 };
                 let lead = other.is_none_or(|(_, score)| own.score - score >= LEAD);
                 if passes {
-                    let sure = lead && own.score >= ENOUGH && (self.held || !own.leaps(self.last));
+                    let confirmed = anchored
+                        || own.passes > 1
+                        || decoder.profile().format.spec().link != Link::Stream;
+                    let sure = lead
+                        && confirmed
+                        && own.score >= ENOUGH
+                        && (self.held || !own.leaps(self.last));
                     Step::Frame(layout, if sure { Trust::Sure } else { Trust::Unsure })
                 } else if own.visits(1) {
                     Step::Skip(1, Why::Request)
@@ -303,19 +370,19 @@ impl<'d> Framer<'d> {
             (Some(own), Some((shift, _)))
                 if passes && own.only_repeats() && self.last.is_none() =>
             {
-                first.map_or(self.skip(rest, shift), |layout| {
+                first.map_or(skip(decoder, rest, shift), |layout| {
                     Step::Frame(layout, Trust::Unsure)
                 })
             }
-            (_, Some((shift, _))) => self.skip(rest, shift),
-            (_, None) => self.nothing(rest, anchored),
+            (_, Some((shift, _))) => skip(decoder, rest, shift),
+            (_, None) => self.nothing(decoder, rest, anchored),
         }
     }
 
     /// No phase of the next frame passes.
-    fn nothing(&self, rest: &[u8], anchored: bool) -> Step<'d> {
+    fn nothing<'d>(&self, decoder: &'d Decoder, rest: &[u8], anchored: bool) -> Step<'d> {
         let follows = anchored || self.skipped == 0;
-        if let Some(layout) = self.decoder.layout(rest[0])
+        if let Some(layout) = decoder.layout(rest)
             && follows
             && rest.len() < layout.len / 8
         {
@@ -328,76 +395,83 @@ impl<'d> Framer<'d> {
                 },
             );
         }
-        let judged = 1..self.decoder.longest().min(rest.len());
+        let judged = 1..decoder.longest().min(rest.len());
         Step::Skip(judged.end.max(1), Why::NoFrame)
     }
+}
 
-    fn skip(&self, rest: &[u8], count: usize) -> Step<'d> {
-        if count == 1 && self.decoder.is_request(rest[0]) {
-            Step::Skip(1, Why::Request)
-        } else {
-            Step::Skip(count, Why::NoFrame)
-        }
+fn skip<'d>(decoder: &Decoder, rest: &[u8], count: usize) -> Step<'d> {
+    if count == 1 && decoder.is_request(rest[0]) {
+        Step::Skip(1, Why::Request)
+    } else {
+        Step::Skip(count, Why::NoFrame)
     }
+}
 
-    /// The layout of a whole frame at the start of `bytes` whose checks hold.
-    fn passing(&self, bytes: &[u8]) -> Option<&'d Resolved> {
-        let layout = self.decoder.layout(*bytes.first()?)?;
-        let frame = bytes.get(..layout.len / 8)?;
-        layout.holds(Bits::of_bytes(frame)).then_some(layout)
-    }
+/// The layout of a whole frame at the start of `bytes` whose checks hold.
+fn passing<'d>(decoder: &'d Decoder, bytes: &[u8]) -> Option<&'d Resolved> {
+    let layout = decoder.layout(bytes)?;
+    let frame = bytes.get(..layout.len / 8)?;
+    layout.holds(Bits::of_bytes(frame)).then_some(layout)
+}
 
-    /// Whether the frame at `shift` is the one a byte before it, read one byte late: of phases
-    /// that pass together the one with the zero in front is right.
-    fn is_late(&self, rest: &[u8], shift: usize) -> bool {
-        let ends = |layout: &Resolved| rest.get(shift + layout.len / 8 - 1) == Some(&0);
-        rest[shift - 1] == 0
-            && self.decoder.layout(rest[shift]).is_some_and(ends)
-            && self.passing(&rest[shift - 1..]).is_some()
-    }
+/// Whether the frame at `shift` is the one a byte before it, read one byte late: of phases
+/// that pass together the one with the zero in front is right.
+fn is_late(decoder: &Decoder, rest: &[u8], shift: usize) -> bool {
+    let ends = |layout: &Resolved| {
+        layout.is_zero_led && rest.get(shift + layout.len / 8 - 1) == Some(&0)
+    };
+    rest[shift - 1] == 0
+        && decoder.layout(&rest[shift..]).is_some_and(ends)
+        && passing(decoder, &rest[shift - 1..]).is_some()
+}
 
-    /// Follows a phase for a window of frames, to the first that fails after one that passes:
-    /// what stands behind it may have slipped.
-    fn chain<'b>(&self, rest: &'b [u8], start: usize, last: Option<Position>) -> Chain<'b> {
-        let mut chain = Chain::new(last);
-        let mut at = start;
-        let mut fails = 0;
-        for _ in 0..WINDOW {
-            let Some(mut here) = rest.get(at..).filter(|here| !here.is_empty()) else {
-                break;
-            };
-            let mut layout = self.passing(here);
-            if layout.is_none() && self.decoder.is_request(here[0]) {
-                layout = self.passing(&here[1..]);
-                if layout.is_some() {
-                    at += 1;
-                    here = &here[1..];
-                }
+/// Follows a phase for a window of frames, to the first that fails after one that passes:
+/// what stands behind it may have slipped.
+fn chain<'b>(
+    decoder: &Decoder,
+    rest: &'b [u8],
+    start: usize,
+    last: Option<Position>,
+) -> Chain<'b> {
+    let mut chain = Chain::new(last);
+    let mut at = start;
+    let mut fails = 0;
+    for _ in 0..WINDOW {
+        let Some(mut here) = rest.get(at..).filter(|here| !here.is_empty()) else {
+            break;
+        };
+        let mut layout = passing(decoder, here);
+        if layout.is_none() && decoder.is_request(here[0]) {
+            layout = passing(decoder, &here[1..]);
+            if layout.is_some() {
+                at += 1;
+                here = &here[1..];
             }
-            if let Some(layout) = layout {
-                chain.add(layout, &here[..layout.len / 8], at);
-                at += layout.len / 8;
-                continue;
-            }
-            let Some(layout) = self
-                .decoder
-                .layout(here[0])
-                .filter(|layout| layout.len / 8 <= here.len())
-            else {
-                break;
-            };
-            chain.score += FAILS;
-            fails += 1;
-            if fails > 2 || chain.passes > 0 {
-                break;
-            }
-            at += layout.len / 8;
         }
-        if at == rest.len() && chain.passes > 0 {
-            chain.score += EDGE;
+        if let Some(layout) = layout {
+            let frame = &here[..layout.len / 8];
+            chain.add(layout, frame, at, decoder.names(frame[0]));
+            at += frame.len();
+            continue;
         }
-        chain
+        let Some(layout) = decoder
+            .layout(here)
+            .filter(|layout| layout.len / 8 <= here.len())
+        else {
+            break;
+        };
+        chain.score += FAILS;
+        fails += 1;
+        if fails > 2 || chain.passes > 0 {
+            break;
+        }
+        at += layout.len / 8;
     }
+    if at == rest.len() && chain.passes > 0 {
+        chain.score += EDGE;
+    }
+    chain
 }
 
 /// Whether more input may come.

@@ -4,19 +4,18 @@
 //! bits, its fixed value or its checksum. Rows stand in transmission order and offsets are
 //! their sums, so a gap or an overlap cannot be written. Widths are computed from the profile.
 //! Rows of one name are parts of one field, most significant first; rows inside `le { … }`
-//! form one number that is sent as little-endian bytes; `include TABLE;` stands for the rows
-//! of another table.
+//! form one number that is sent as little-endian bytes; rows inside `gray(when) { … }` form one
+//! word that is Gray-coded where the profile says so; rows inside `decimal { … }` are digits of
+//! ASCII text; `include TABLE;` stands for the rows of another table.
 //!
 //! Decoder, encoder, explainer and checks all read a [`Resolved`] layout: a table whose widths
 //! have been worked out once, so that the frame loop only shifts.
 
-use crate::{
-    bits::{self, BitString, Bits, Span},
-    check::Checksum,
-    profile::Profile,
-};
-use alloc::vec::Vec;
-use core::ops::Range;
+mod resolved;
+
+pub use resolved::{Coding, Covered, Field, Part, Resolved, Shape};
+
+use crate::check::Checksum;
 
 /// What a field means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +46,14 @@ pub enum Role {
     Temperature,
     /// How many commands of a sequence the encoder has counted.
     Count,
+    /// Address of a device on a bus.
+    Address,
+    /// Position data is valid: the opposite of an error flag.
+    Valid,
+    /// No zero has been set by the user.
+    ZeroDefault,
+    /// The same word once more (multi-transmission).
+    Repeat,
     /// EEPROM address.
     MemoryAddress,
     /// EEPROM data.
@@ -94,22 +101,26 @@ impl Role {
     #[must_use]
     pub const fn class(self) -> Class {
         match self {
-            Self::Framing | Self::Padding | Self::Operation | Self::Enid => Class::Framing,
+            Self::Framing | Self::Padding | Self::Operation | Self::Address | Self::Enid => {
+                Class::Framing
+            }
             Self::Turns => Class::Turns,
             Self::Angle => Class::Angle,
-            Self::Error | Self::Warning | Self::Count => Class::Flags,
+            Self::Error | Self::Warning | Self::Valid | Self::ZeroDefault | Self::Count => {
+                Class::Flags
+            }
             Self::Status
             | Self::Alarm
             | Self::Speed
             | Self::Temperature
             | Self::MemoryAddress
             | Self::MemoryData => Class::Status,
-            Self::Crc | Self::Parity => Class::Check,
+            Self::Crc | Self::Parity | Self::Repeat => Class::Check,
         }
     }
 }
 
-/// Which level asserts a flag; framing bits rest at the other one.
+/// Which level asserts a flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Active {
     /// 1 asserts.
@@ -133,35 +144,54 @@ pub struct StatusBit {
 
 /// Which bits a checksum covers.
 #[derive(Clone, Copy, Debug)]
+pub enum Cover {
+    /// Everything from the row of this name up to the check field.
+    From(&'static str),
+    /// From the first bit of one row to the last bit of another.
+    Rows(&'static str, &'static str),
+    /// The whole frame, its own bits taken as 0.
+    Frame,
+}
+
+/// A checksum and the bits it covers.
+#[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// How it is computed.
     pub sum: Checksum,
-    /// Name of the first covered row.
-    pub first: &'static str,
-    /// Name of the last covered row; without one, all bits up to the check field.
-    pub last: Option<&'static str>,
+    /// What it covers.
+    pub cover: Cover,
 }
 
 impl Check {
     /// Everything from the row `first` up to the check field.
     #[must_use]
     pub const fn from(sum: Checksum, first: &'static str) -> Option<Self> {
-        Some(Self {
-            sum,
-            first,
-            last: None,
-        })
+        let cover = Cover::From(first);
+        Some(Self { sum, cover })
     }
 
-    /// One row.
+    /// The rows from `first` to `last`.
     #[must_use]
-    pub const fn of(sum: Checksum, row: &'static str) -> Option<Self> {
-        Some(Self {
-            sum,
-            first: row,
-            last: Some(row),
-        })
+    pub const fn rows(sum: Checksum, first: &'static str, last: &'static str) -> Option<Self> {
+        let cover = Cover::Rows(first, last);
+        Some(Self { sum, cover })
     }
+
+    /// The whole frame, with the bits of the check itself taken as 0.
+    #[must_use]
+    pub const fn frame(sum: Checksum) -> Option<Self> {
+        let cover = Cover::Frame;
+        Some(Self { sum, cover })
+    }
+}
+
+/// What follows from a check that does not hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weight {
+    /// The frame is bad.
+    Binding,
+    /// It is shown, and the frame stays good: the manual leaves the rule open.
+    Advisory,
 }
 
 /// One row of a layout table.
@@ -175,8 +205,10 @@ pub struct Row {
     pub doc: &'static [&'static str],
     /// Number of bits for a frame shape.
     pub width: fn(&Shape) -> u32,
-    /// Which level asserts a flag; framing bits rest at the other one.
+    /// Which level asserts a flag.
     pub active: Active,
+    /// What framing bits without a fixed value are when nobody says otherwise.
+    pub rest: fn(&Shape) -> u64,
     /// Names of the single bits.
     pub bits: &'static [StatusBit],
     /// The value it always has.
@@ -185,6 +217,8 @@ pub struct Row {
     pub zeros: u64,
     /// How it is computed, for a check field.
     pub check: Option<Check>,
+    /// What follows when it does not hold, for a check field.
+    pub weight: Weight,
 }
 
 impl Row {
@@ -202,6 +236,7 @@ impl Row {
             doc,
             width,
             active: Active::High,
+            rest: |_| 0,
             bits: &[],
             constant: match role {
                 Role::Padding => Some(0),
@@ -209,6 +244,7 @@ impl Row {
             },
             zeros: 0,
             check: None,
+            weight: Weight::Binding,
         }
     }
 }
@@ -220,6 +256,10 @@ pub enum Piece {
     Row(Row),
     /// Rows that form one number, written most significant first and sent last byte first.
     LittleEndian(&'static [Row]),
+    /// Rows that form one word, Gray-coded where the function says so.
+    Gray(fn(&Shape) -> bool, &'static [Row]),
+    /// Rows that are ASCII digits of a decimal number; their widths count the digits' bits.
+    Decimal(&'static [Row]),
     /// The rows of another table.
     Include(&'static Layout),
 }
@@ -246,6 +286,14 @@ macro_rules! layout {
     (@pieces $p:ident ($($done:tt)*) le { $($rows:tt)* } $($rest:tt)*) => {
         layout!(@pieces $p ($($done)*
             $crate::layout::Piece::LittleEndian(layout!(@rows $p () $($rows)*)),) $($rest)*)
+    };
+    (@pieces $p:ident ($($done:tt)*) gray($when:expr) { $($rows:tt)* } $($rest:tt)*) => {
+        layout!(@pieces $p ($($done)* $crate::layout::Piece::Gray(
+            |$p: &$crate::layout::Shape| $when, layout!(@rows $p () $($rows)*)),) $($rest)*)
+    };
+    (@pieces $p:ident ($($done:tt)*) decimal { $($rows:tt)* } $($rest:tt)*) => {
+        layout!(@pieces $p ($($done)*
+            $crate::layout::Piece::Decimal(layout!(@rows $p () $($rows)*)),) $($rest)*)
     };
     (@pieces $p:ident ($($done:tt)*) include $other:ident; $($rest:tt)*) => {
         layout!(@pieces $p ($($done)* $crate::layout::Piece::Include(&$other),) $($rest)*)
@@ -277,210 +325,3 @@ macro_rules! layout {
     };
 }
 pub(crate) use layout;
-
-/// What the widths of one frame depend on: the profile, and what was found around the data.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shape {
-    /// The profile.
-    pub profile: Profile,
-    /// Ones before the frame (BiSS-C line idle).
-    pub idle: u32,
-    /// Whether acknowledge, start and cds bits precede the data (BiSS-C).
-    pub preamble: bool,
-    /// Zeros before the start bit (BiSS-C).
-    pub ack: u32,
-    /// Bits after the frame.
-    pub tail: u32,
-}
-
-impl Shape {
-    /// The shape in which the profile itself describes a whole frame.
-    #[must_use]
-    pub const fn of(profile: Profile) -> Self {
-        Self {
-            idle: 1,
-            preamble: true,
-            ack: profile.ack_bits,
-            tail: 0,
-            profile,
-        }
-    }
-}
-
-impl core::ops::Deref for Shape {
-    type Target = Profile;
-    fn deref(&self) -> &Profile {
-        &self.profile
-    }
-}
-
-/// A part of a field: a run of bits of the frame and its place in the field's number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
-    /// Where in the frame.
-    pub span: Span,
-    /// Place of its least significant bit in the number.
-    pub place: u32,
-}
-
-/// A field of a resolved layout.
-#[derive(Clone, Debug)]
-pub struct Field {
-    /// The row it comes from; of several parts, the first.
-    pub row: &'static Row,
-    /// Total number of bits.
-    pub width: u32,
-    parts: Range<usize>,
-    /// For a check field, the bits it covers.
-    pub cover: Option<(Checksum, Span)>,
-}
-
-/// A layout whose widths have been worked out for a shape.
-#[derive(Clone, Debug)]
-pub struct Resolved {
-    /// The table.
-    pub layout: &'static Layout,
-    /// The shape it was resolved for.
-    pub shape: Shape,
-    /// Length of the frame in bits.
-    pub len: usize,
-    /// Bits whose value the others decide: checks, constants and padding.
-    pub redundancy: u32,
-    fields: Vec<Field>,
-    parts: Vec<Part>,
-}
-
-impl Resolved {
-    /// Works out a table for a shape.
-    #[must_use]
-    pub fn new(layout: &'static Layout, shape: Shape) -> Self {
-        let mut runs = Vec::new();
-        let len = lay_out(layout, &shape, 0, &mut runs);
-        let mut fields: Vec<Field> = Vec::new();
-        let mut parts = Vec::new();
-        for (row, _) in &runs {
-            if fields.iter().any(|field| field.row.name == row.name) {
-                continue;
-            }
-            let mine = || runs.iter().filter(|(other, _)| other.name == row.name);
-            let width: usize = mine().map(|(_, span)| span.len).sum();
-            let mut place = width as u32;
-            let first = parts.len();
-            for (_, span) in mine().filter(|(_, span)| span.len > 0) {
-                place -= span.len as u32;
-                parts.push(Part { span: *span, place });
-            }
-            fields.push(Field {
-                row,
-                width: width as u32,
-                parts: first..parts.len(),
-                cover: row
-                    .check
-                    .map(|check| (check.sum, cover(&runs, check, row.name))),
-            });
-        }
-        Self {
-            layout,
-            shape,
-            len,
-            redundancy: fields
-                .iter()
-                .map(
-                    |field| match field.cover.is_some() || field.row.constant.is_some() {
-                        true => field.width,
-                        false => field.row.zeros.count_ones(),
-                    },
-                )
-                .sum(),
-            fields,
-            parts,
-        }
-    }
-
-    /// The fields that have bits, in transmission order.
-    pub fn fields(&self) -> impl Iterator<Item = &Field> {
-        self.fields.iter().filter(|field| field.width > 0)
-    }
-
-    /// The parts of a field, most significant first.
-    #[must_use]
-    pub fn parts(&self, field: &Field) -> &[Part] {
-        &self.parts[field.parts.clone()]
-    }
-
-    /// The field that holds bit `index` of the frame.
-    #[must_use]
-    pub fn field_at(&self, index: usize) -> Option<&Field> {
-        self.fields().find(|field| {
-            self.parts(field)
-                .iter()
-                .any(|part| part.span.contains(index))
-        })
-    }
-
-    /// The number a field holds.
-    #[must_use]
-    pub fn read(&self, field: &Field, bits: Bits<'_>) -> u64 {
-        self.parts(field).iter().fold(0, |value, part| {
-            value | bits::placed(bits.read(part.span), part.place)
-        })
-    }
-
-    /// Puts a number into a field.
-    pub fn write(&self, field: &Field, bits: &mut BitString, value: u64) {
-        for part in self.parts(field) {
-            bits.write(part.span, bits::slice(value, part.place, part.span.len));
-        }
-    }
-}
-
-/// A run of bits and the row it belongs to.
-type Run = (&'static Row, Span);
-
-/// Lays a table out from bit `at`; returns where it ends.
-fn lay_out(layout: &'static Layout, shape: &Shape, mut at: usize, runs: &mut Vec<Run>) -> usize {
-    for piece in layout.pieces {
-        match piece {
-            Piece::Row(row) => {
-                let width = (row.width)(shape) as usize;
-                runs.push((row, Span::new(at, width)));
-                at += width;
-            }
-            Piece::LittleEndian(rows) => at = little_endian(rows, shape, at, runs),
-            Piece::Include(other) => at = lay_out(other, shape, at, runs),
-        }
-    }
-    at
-}
-
-/// Lays `rows` out as one big-endian number from bit `start`, then reverses its bytes.
-fn little_endian(rows: &'static [Row], shape: &Shape, start: usize, runs: &mut Vec<Run>) -> usize {
-    let total: usize = rows.iter().map(|row| (row.width)(shape) as usize).sum();
-    let bytes = total.div_ceil(8);
-    let mut at = bytes * 8 - total;
-    for row in rows {
-        let end = at + (row.width)(shape) as usize;
-        if at == end {
-            runs.push((row, Span::new(start, 0)));
-        }
-        while at < end {
-            let take = (8 - at % 8).min(end - at);
-            let byte = bytes - 1 - at / 8;
-            runs.push((row, Span::new(start + byte * 8 + at % 8, take)));
-            at += take;
-        }
-    }
-    start + bytes * 8
-}
-
-/// The bits that `check`, standing in the row `own`, covers.
-fn cover(runs: &[Run], check: Check, own: &str) -> Span {
-    let named = |name| runs.iter().filter(move |(row, _)| row.name == name);
-    let start = named(check.first).map(|(_, span)| span.start).min();
-    let end = match check.last {
-        Some(last) => named(last).map(|(_, span)| span.end()).max(),
-        None => named(own).map(|(_, span)| span.start).min(),
-    };
-    let (start, end) = (start.unwrap_or(0), end.unwrap_or(0));
-    Span::new(start, end.saturating_sub(start))
-}

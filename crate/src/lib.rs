@@ -31,4 +31,5 @@ pub mod model;
 pub mod profile;
 pub mod reading;
 pub mod record;
+pub mod sequence;
 pub mod session;

@@ -5,7 +5,7 @@
 
 use crate::{
     format::Format,
-    profile::{Justify, Profile},
+    profile::Profile,
 };
 use alloc::{format, string::String, vec::Vec};
 use core::fmt;
@@ -102,17 +102,12 @@ pub fn parse(code: &str) -> Result<Model, ModelError> {
     let (angle_bits, turns_bits) = resolution(part(5)?).ok_or_else(|| wrong(5))?;
     let interface = part(6)?;
     let format = match interface {
+        "S" => Format::Ssi,
         "B" => Format::BissC,
         "R" | "A" => Format::Rs485,
         "T" => Format::T485,
-        "S" | "D" | "P" => {
-            return Err(ModelError {
-                position: 6,
-                message: format!(
-                    "interface {interface} is not read by this version; it reads B R A T"
-                ),
-            });
-        }
+        "D" => Format::Bus,
+        "P" => Format::Period,
         _ => return Err(wrong(6)),
     };
     if format == Format::T485 && !matches!(angle_bits, 17 | 23) {
@@ -132,7 +127,6 @@ pub fn parse(code: &str) -> Result<Model, ModelError> {
         angle_bits,
         turns_bits,
         baud: if slow { 115_200 } else { 2_500_000 },
-        justify: Justify::Left,
         ..format.default_profile()
     };
     Ok(Model {

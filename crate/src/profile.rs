@@ -3,8 +3,14 @@
 //! Every parameter has one name, in kebab-case on the command line and in links and in
 //! camelCase in JavaScript. An omitted parameter takes its format's default.
 
+mod choice;
+
+pub use choice::{
+    Align, Choice, Code, Dialect, Justify, Marker, Parity, StatusActive, TurnsCode,
+};
+
 use crate::{
-    format::{Format, rs485::Command},
+    format::{Format, rs485::Command, ssi_tree},
     model,
     record::Value,
 };
@@ -14,15 +20,6 @@ use alloc::{
     vec::Vec,
 };
 use core::fmt;
-
-/// On which side the bits of a BiSS-C dump stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Justify {
-    /// The first bit on the wire is the most significant bit of the first byte (SPI capture).
-    Left,
-    /// The last bit on the wire is the least significant bit of the last byte (a number).
-    Right,
-}
 
 /// The parameters of an encoder.
 ///
@@ -46,9 +43,27 @@ pub struct Profile {
     pub ack_bits: u32,
     /// The RS485 command whose replies are read.
     pub command: Command,
+    /// Address of the device on a BUS, 0…31.
+    pub address: u32,
+    /// Code of an SSI word.
+    pub code: Code,
+    /// Where the number stands in an SSI word.
+    pub align: Align,
+    /// Bits of an SSI word.
+    pub frame_bits: u32,
+    /// Parity of an SSI word or of a BUS request.
+    pub parity: Parity,
+    /// How the turn counter is read.
+    pub turns_code: TurnsCode,
+    /// Polarity of the status bits of BiSS-C.
+    pub status_active: StatusActive,
+    /// Meaning of the T485 alarm byte.
+    pub dialect: Dialect,
+    /// Top bits of an ASI1 packet.
+    pub marker: Marker,
     /// Baud rate of a UART format.
     pub baud: u32,
-    /// On which side the bits of a BiSS-C dump stand.
+    /// On which side the bits of a dump stand in its bytes.
     pub justify: Justify,
 }
 
@@ -114,32 +129,65 @@ const PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
+        name: "address",
+        show: |p| p.address.into(),
+        set: |p, text| number(text).map(|value| p.address = value),
+    },
+    Parameter {
+        name: "code",
+        show: |p| p.code.word().into(),
+        set: |p, text| chosen(text).map(|value| p.code = value),
+    },
+    Parameter {
+        name: "align",
+        show: |p| p.align.word().into(),
+        set: |p, text| chosen(text).map(|value| p.align = value),
+    },
+    Parameter {
+        name: "frame-bits",
+        show: |p| p.frame_bits.into(),
+        set: |p, text| number(text).map(|value| p.frame_bits = value),
+    },
+    Parameter {
+        name: "parity",
+        show: |p| p.parity.word().into(),
+        set: |p, text| chosen(text).map(|value| p.parity = value),
+    },
+    Parameter {
+        name: "turns-code",
+        show: |p| p.turns_code.word().into(),
+        set: |p, text| chosen(text).map(|value| p.turns_code = value),
+    },
+    Parameter {
+        name: "status-active",
+        show: |p| p.status_active.word().into(),
+        set: |p, text| chosen(text).map(|value| p.status_active = value),
+    },
+    Parameter {
+        name: "dialect",
+        show: |p| p.dialect.word().into(),
+        set: |p, text| chosen(text).map(|value| p.dialect = value),
+    },
+    Parameter {
+        name: "marker",
+        show: |p| p.marker.word().into(),
+        set: |p, text| chosen(text).map(|value| p.marker = value),
+    },
+    Parameter {
         name: "baud",
         show: |p| p.baud.into(),
         set: |p, text| number(text).map(|value| p.baud = value),
     },
     Parameter {
         name: "justify",
-        show: |p| {
-            match p.justify {
-                Justify::Left => "left",
-                Justify::Right => "right",
-            }
-            .into()
-        },
-        set: |p, text| match text {
-            "left" => {
-                p.justify = Justify::Left;
-                Ok(())
-            }
-            "right" => {
-                p.justify = Justify::Right;
-                Ok(())
-            }
-            _ => Err(format!("{text:?} is no side; known: left right")),
-        },
+        show: |p| p.justify.word().into(),
+        set: |p, text| chosen(text).map(|value| p.justify = value),
     },
 ];
+
+fn chosen<T: Choice>(text: &str) -> Result<T, String> {
+    T::of_word(text).ok_or_else(|| format!("{text:?} is not known; known: {}", T::WORDS.join(" ")))
+}
 
 fn number(text: &str) -> Result<u32, String> {
     text.parse()
@@ -147,6 +195,30 @@ fn number(text: &str) -> Result<u32, String> {
 }
 
 impl Profile {
+    /// What most formats have in common; a format's own default overrides it.
+    #[must_use]
+    pub const fn base(format: Format) -> Self {
+        Self {
+            format,
+            angle_bits: 24,
+            turns_bits: 16,
+            status_bits: 6,
+            ack_bits: 5,
+            command: Command::Status,
+            address: 0x1f,
+            code: Code::Binary,
+            align: Align::Right,
+            frame_bits: 0,
+            parity: Parity::None,
+            turns_code: TurnsCode::Unsigned,
+            status_active: StatusActive::High,
+            dialect: Dialect::Mpp,
+            marker: Marker::None,
+            baud: 2_500_000,
+            justify: Justify::Right,
+        }
+    }
+
     /// A profile from names and values, in any order; `model` stands for all it implies.
     ///
     /// # Errors
@@ -197,8 +269,25 @@ impl Profile {
                 .ok_or_else(|| error(name, "is no parameter of a profile"))?;
             (parameter.set)(&mut profile, value).map_err(|message| error(name, message))?;
         }
+        if find("frame-bits").is_none() && find("model").is_none() {
+            profile.frame_bits = profile.natural_frame_bits();
+        }
         profile.check()?;
         Ok(profile)
+    }
+
+    /// The word length that these widths have in practice: 13 clocks for a single turn of an SSI
+    /// encoder and 25 for a multi-turn one, more where they do not fit; 30 for SSI7.
+    #[must_use]
+    pub const fn natural_frame_bits(&self) -> u32 {
+        match self.format {
+            Format::SsiTree => {
+                let common = if self.turns_bits == 0 { 13 } else { 25 };
+                let needed = ssi_tree::needed_bits(self);
+                if needed > common { needed } else { common }
+            }
+            _ => self.format.default_profile().frame_bits,
+        }
     }
 
     /// Whether `name`, in either spelling, names a parameter.
@@ -244,6 +333,14 @@ impl Profile {
         range("status-bits", self.status_bits, 0, 8)?;
         range("ack-bits", self.ack_bits, 1, 255)?;
         range("baud", self.baud, 1, 50_000_000)?;
+        range("address", self.address, 0, 31)?;
+        if self.format.parameters().contains(&"frame-bits") {
+            let low = match self.format {
+                Format::SsiTree => ssi_tree::needed_bits(self),
+                _ => limits.frame.0,
+            };
+            range("frame-bits", self.frame_bits, low, limits.frame.1)?;
+        }
         if self.angle_bits + self.turns_bits > limits.together {
             return Err(error(
                 "turns-bits",

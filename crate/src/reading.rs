@@ -3,7 +3,8 @@
 
 use crate::{
     bits::{self, BitString, Bits, Span},
-    layout::{Active, Field, Resolved, Role, StatusBit},
+    layout::{Active, Coding, Field, Resolved, Role, StatusBit},
+    profile::TurnsCode,
 };
 use alloc::vec::Vec;
 use core::fmt;
@@ -28,15 +29,19 @@ impl Checked {
 /// All numbers of a frame as they were sent; what the format does not have is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Values {
-    /// Whole turns, unsigned.
-    pub turns: Option<u64>,
+    /// Whole turns; negative only where the profile reads the counter as signed.
+    pub turns: Option<i64>,
     /// Counts within one turn.
     pub angle: Option<u64>,
     /// The position is not valid, whatever the polarity of the bit.
     pub error: Option<bool>,
+    /// The position is valid, in formats that say so; `error` is the opposite.
+    pub valid: Option<bool>,
+    /// No zero has been set by the user.
+    pub zero_default: Option<bool>,
     /// The position is valid, but near a limit; false in formats that have only an error flag.
     pub warning: Option<bool>,
-    /// The six status bits; T485: the status field.
+    /// The six status bits, 1 where the condition is there; T485: the status field.
     pub status: Option<u8>,
     /// The alarm byte.
     pub alarm: Option<u8>,
@@ -48,8 +53,10 @@ pub struct Values {
     pub temperature: Option<i32>,
     /// How many commands of a sequence the encoder has counted.
     pub count: Option<u8>,
-    /// The operation that the frame answers; T485: the data ID, four bits.
+    /// The operation that the frame answers; T485: the data ID, four bits; BUS: two bits.
     pub operation: Option<u8>,
+    /// Address of the device on a bus.
+    pub address: Option<u8>,
     /// EEPROM address and data.
     pub memory: (Option<u8>, Option<u8>),
     /// The CRC.
@@ -65,12 +72,14 @@ pub struct Reading {
     pub angle: u64,
     /// Bits per turn.
     pub angle_bits: u32,
-    /// Whole turns, unsigned, where the encoder counts them.
-    pub turns: Option<u64>,
+    /// Whole turns, where the encoder counts them.
+    pub turns: Option<i64>,
     /// The encoder itself says that the position is not valid.
     pub error: bool,
     /// The encoder warns; the position is valid.
     pub warning: bool,
+    /// The six status bits; T485: the status field.
+    pub status: Option<u8>,
 }
 
 impl Reading {
@@ -132,6 +141,25 @@ pub enum FaultKind {
         /// Name of the field.
         name: &'static str,
     },
+    /// A number in text has other characters than digits.
+    Digits {
+        /// Name of the field.
+        name: &'static str,
+    },
+    /// A number in text is larger than the widest one.
+    Range {
+        /// Name of the field.
+        name: &'static str,
+        /// The number.
+        value: u64,
+        /// The largest it can be.
+        most: u64,
+    },
+    /// A repeated word is not the first one again.
+    Repeat {
+        /// Which word, counted from 1.
+        word: u32,
+    },
     /// The frame's place is not certain: another phase of the stream passes its checks as well.
     Ambiguous,
 }
@@ -156,6 +184,14 @@ impl fmt::Display for FaultKind {
                 "{name} is not 0: the number is wider than the profile says"
             ),
             Self::Zeros { name } => write!(f, "bits of {name} that are always 0 are set"),
+            Self::Digits { name } => write!(f, "{name} has characters that are no digits"),
+            Self::Range { name, value, most } => {
+                write!(f, "{name} is {value}, the largest is {most}")
+            }
+            Self::Repeat { word } => write!(
+                f,
+                "word {word} is not the first one again: the line disturbs the transmission"
+            ),
             Self::Ambiguous => f.write_str(
                 "the check passes, but may do so by chance: where frames begin is not certain",
             ),
@@ -172,13 +208,19 @@ impl Resolved {
             let raw = self.read(field, bits);
             let byte = Some(bits::low_byte(raw));
             let asserted = Some((raw != 0) == (field.row.active == Active::High));
+            let tenths = || Some(bits::signed(raw, field.width as usize) as i32);
             match field.row.role {
-                Role::Turns => values.turns = Some(raw),
+                Role::Turns => values.turns = Some(self.turns(raw)),
                 Role::Angle => values.angle = Some(raw),
                 Role::Error => values.error = asserted,
                 Role::Warning => values.warning = asserted,
+                Role::Valid => {
+                    values.valid = asserted;
+                    values.error = asserted.map(|valid| !valid);
+                }
+                Role::ZeroDefault => values.zero_default = asserted,
                 Role::Status => {
-                    values.status = byte;
+                    values.status = Some(bits::low_byte(field.active_high(raw)));
                     for named in field.row.bits {
                         if named.role == Some(Role::Error) {
                             values.error = Some(bits::bit(raw, named.place));
@@ -187,15 +229,16 @@ impl Resolved {
                 }
                 Role::Alarm => values.alarm = byte,
                 Role::Enid => values.enid = byte,
-                Role::Speed => values.speed = Some(bits::signed16(raw)),
-                Role::Temperature => values.temperature = Some(bits::signed16(raw)),
+                Role::Speed => values.speed = tenths(),
+                Role::Temperature => values.temperature = tenths(),
                 Role::Count => values.count = byte,
                 Role::Operation => values.operation = byte,
+                Role::Address => values.address = byte,
                 Role::MemoryAddress => values.memory.0 = byte,
                 Role::MemoryData => values.memory.1 = byte,
-                Role::Crc => values.crc = checked(field, raw, bits),
-                Role::Parity => values.parity = checked(field, raw, bits),
-                Role::Framing | Role::Padding => {}
+                Role::Crc => values.crc = self.checked(field, bits),
+                Role::Parity => values.parity = self.checked(field, bits),
+                Role::Framing | Role::Padding | Role::Repeat => {}
             }
         }
         if values.error.is_some() && values.warning.is_none() {
@@ -204,9 +247,20 @@ impl Resolved {
         values
     }
 
-    /// What is wrong with a frame; nothing for a good one.
+    /// The turn counter as the profile reads it.
+    fn turns(&self, raw: u64) -> i64 {
+        match self.shape.profile.turns_code {
+            TurnsCode::Unsigned => i64::try_from(raw).unwrap_or(i64::MAX),
+            TurnsCode::Signed => bits::signed(raw, self.shape.profile.turns_bits as usize),
+        }
+    }
+
+    /// Everything that is wrong with a frame; nothing for a good one.
     #[must_use]
     pub fn faults(&self, bits: Bits<'_>) -> Vec<Fault> {
+        if self.passes_sieve(bits) == Some(true) {
+            return Vec::new();
+        }
         self.fields()
             .filter_map(|field| self.fault(field, bits))
             .collect()
@@ -215,36 +269,74 @@ impl Resolved {
     /// Whether every check of the frame holds.
     #[must_use]
     pub fn holds(&self, bits: Bits<'_>) -> bool {
-        self.fields().all(|field| self.fault(field, bits).is_none())
+        self.passes_sieve(bits)
+            .unwrap_or_else(|| self.fields().all(|field| self.fault(field, bits).is_none()))
     }
 
     /// What is wrong with one field.
     #[must_use]
     pub fn fault(&self, field: &Field, bits: Bits<'_>) -> Option<Fault> {
+        let parts = self.parts(field);
+        let at = parts.first().map_or_else(Span::default, |part| part.span);
+        let kind = if field.row.role == Role::Repeat {
+            let word = self.broken_repeat(at, bits)?;
+            FaultKind::Repeat { word }
+        } else {
+            self.fault_kind(field, bits)?
+        };
+        Some(Fault { at, kind })
+    }
+
+    fn fault_kind(&self, field: &Field, bits: Bits<'_>) -> Option<FaultKind> {
         let name = field.row.name;
         let raw = self.read(field, bits);
-        let kind = if let Some(expected) = field.row.constant
-            && raw != expected
-        {
-            match field.row.role {
+        if let Some((Coding::Decimal, text)) = self.coding(field) {
+            let most = bits::mask(self.shape.profile.angle_bits as usize);
+            return match bits.decimal(text) {
+                None => Some(FaultKind::Digits { name }),
+                Some(value) if value > most => Some(FaultKind::Range { name, value, most }),
+                Some(_) => None,
+            };
+        }
+        if let Some(expected) = field.row.constant.filter(|expected| *expected != raw) {
+            let received = raw;
+            return Some(match field.row.role {
                 Role::Padding => FaultKind::Wider { name },
                 _ => FaultKind::Constant {
                     name,
                     expected,
-                    received: raw,
+                    received,
                 },
-            }
-        } else if raw & field.row.zeros != 0 {
-            FaultKind::Zeros { name }
-        } else {
-            let checked = checked(field, raw, bits).filter(|checked| !checked.ok())?;
-            FaultKind::Check { name, checked }
-        };
-        let at = self
-            .parts(field)
-            .first()
-            .map_or_else(Span::default, |part| part.span);
-        Some(Fault { at, kind })
+            });
+        }
+        if raw & field.row.zeros != 0 {
+            return Some(FaultKind::Zeros { name });
+        }
+        let checked = self
+            .checked(field, bits)
+            .filter(|checked| field.is_binding() && !checked.ok())?;
+        Some(FaultKind::Check { name, checked })
+    }
+
+    /// Which of the words in `repeats` is not, behind a 0, the word in front of them.
+    fn broken_repeat(&self, repeats: Span, bits: Bits<'_>) -> Option<u32> {
+        let word = self.shape.profile.frame_bits as usize;
+        let first = repeats.start.checked_sub(word)?;
+        (0..self.shape.repeats).find_map(|index| {
+            let zero = repeats.start + index as usize * (word + 1);
+            let same = (0..word).all(|at| bits.bit(first + at) == bits.bit(zero + 1 + at));
+            (bits.bit(zero) || !same).then_some(index + 2)
+        })
+    }
+
+    /// What a check field holds and what it must hold.
+    #[must_use]
+    pub fn checked(&self, field: &Field, bits: Bits<'_>) -> Option<Checked> {
+        let received = self.read(field, bits);
+        self.expected(field, bits).map(|expected| Checked {
+            expected,
+            received,
+        })
     }
 
     /// Position and health.
@@ -254,18 +346,46 @@ impl Resolved {
     /// Refuses a frame with any fault, and says which; a frame without an angle gives no
     /// reading.
     pub fn reading(&self, bits: Bits<'_>) -> Result<Option<Reading>, Vec<Fault>> {
-        let faults = self.faults(bits);
-        if !faults.is_empty() {
-            return Err(faults);
+        if self.holds(bits) {
+            Ok(self.position(bits))
+        } else {
+            Err(self.faults(bits))
         }
-        let values = self.values(bits);
-        Ok(values.angle.map(|angle| Reading {
-            angle,
+    }
+
+    /// Position and health of a frame whose checks hold.
+    fn position(&self, bits: Bits<'_>) -> Option<Reading> {
+        let mut angle = None;
+        let mut reading = Reading {
+            angle: 0,
             angle_bits: self.shape.profile.angle_bits,
-            turns: values.turns,
-            error: values.error == Some(true),
-            warning: values.warning == Some(true),
-        }))
+            turns: None,
+            error: false,
+            warning: false,
+            status: None,
+        };
+        for field in self.fields() {
+            let row = field.row;
+            let raw = || self.read(field, bits);
+            let asserted = || (raw() != 0) == (row.active == Active::High);
+            match row.role {
+                Role::Angle => angle = Some(raw()),
+                Role::Turns => reading.turns = Some(self.turns(raw())),
+                Role::Error => reading.error = asserted(),
+                Role::Valid => reading.error = !asserted(),
+                Role::Warning => reading.warning = asserted(),
+                Role::Status => {
+                    let raw = raw();
+                    reading.status = Some(bits::low_byte(field.active_high(raw)));
+                    let errors = row.bits.iter().filter(|bit| bit.role == Some(Role::Error));
+                    for bit in errors {
+                        reading.error = bits::bit(raw, bit.place);
+                    }
+                }
+                _ => {}
+            }
+        }
+        angle.map(|angle| Reading { angle, ..reading })
     }
 
     /// The frame that says `values`; absent ones are 0 or not asserted, checks are computed.
@@ -274,59 +394,83 @@ impl Resolved {
         let mut out = BitString::zeros(self.len);
         for field in self.fields() {
             let byte = |value: Option<u8>| u64::from(value.unwrap_or(0));
+            let tenths = |value: Option<i32>| i64::from(value.unwrap_or(0)) as u64;
             let flag = |value: Option<bool>| {
                 u64::from(value.unwrap_or(false) == (field.row.active == Active::High))
             };
             let raw = match field.row.role {
-                Role::Turns => values.turns.unwrap_or(0),
+                Role::Turns => values.turns.unwrap_or(0) as u64,
                 Role::Angle => values.angle.unwrap_or(0),
                 Role::Error => flag(values.error),
                 Role::Warning => flag(values.warning),
+                Role::Valid => flag(Some(
+                    values.valid.unwrap_or_else(|| values.error != Some(true)),
+                )),
+                Role::ZeroDefault => flag(values.zero_default),
                 Role::Status => {
                     let error = |bit: &&StatusBit| {
                         bit.role == Some(Role::Error) && values.error == Some(true)
                     };
                     let errors = field.row.bits.iter().filter(error);
-                    errors.fold(byte(values.status), |raw, bit| {
+                    let raw = errors.fold(byte(values.status), |raw, bit| {
                         raw | bits::placed(1, bit.place)
-                    })
+                    });
+                    field.active_high(raw)
                 }
                 Role::Alarm => byte(values.alarm),
                 Role::Enid => byte(values.enid),
-                Role::Speed => bits::from_signed16(values.speed.unwrap_or(0)),
-                Role::Temperature => bits::from_signed16(values.temperature.unwrap_or(0)),
+                Role::Speed => tenths(values.speed),
+                Role::Temperature => tenths(values.temperature),
                 Role::Count => byte(values.count),
                 Role::Operation => byte(values.operation),
+                Role::Address => byte(values.address),
                 Role::MemoryAddress => byte(values.memory.0),
                 Role::MemoryData => byte(values.memory.1),
                 Role::Framing => match field.row.constant {
                     Some(constant) => constant,
-                    None if field.row.active == Active::Low => u64::MAX,
-                    None => 0,
+                    None => (field.row.rest)(&self.shape),
                 },
-                Role::Padding | Role::Crc | Role::Parity => 0,
+                Role::Padding | Role::Crc | Role::Parity | Role::Repeat => 0,
             };
             self.write(field, &mut out, raw);
         }
         self.seal(&mut out, Role::Parity);
         self.seal(&mut out, Role::Crc);
+        self.repeat(&mut out);
         out
     }
 
     /// Computes the checks of one kind anew.
     pub fn seal(&self, out: &mut BitString, role: Role) {
         for field in self.fields().filter(|field| field.row.role == role) {
-            if let Some((sum, over)) = field.cover {
-                let value = sum.compute(out.as_bits(), over);
+            if let Some(value) = self.expected(field, out.as_bits()) {
                 self.write(field, out, value);
+            }
+        }
+    }
+
+    /// Writes the word once more, as often as the shape says.
+    fn repeat(&self, out: &mut BitString) {
+        let word = self.shape.profile.frame_bits as usize;
+        for field in self.fields().filter(|field| field.row.role == Role::Repeat) {
+            for part in self.parts(field) {
+                for at in part.span.start..part.span.end() {
+                    let behind = (at - part.span.start) % (word + 1);
+                    let from = part.span.start.saturating_sub(word) + behind.saturating_sub(1);
+                    let bit = behind > 0 && out.as_bits().bit(from);
+                    out.write(Span::new(at, 1), u64::from(bit));
+                }
             }
         }
     }
 }
 
-fn checked(field: &Field, received: u64, bits: Bits<'_>) -> Option<Checked> {
-    field.cover.map(|(sum, over)| Checked {
-        expected: sum.compute(bits, over),
-        received,
-    })
+impl Field {
+    /// The bits of a status field, 1 where the condition is there; the same the other way round.
+    pub(crate) fn active_high(&self, raw: u64) -> u64 {
+        match self.row.active {
+            Active::High => raw,
+            Active::Low => !raw & bits::mask(self.width as usize),
+        }
+    }
 }

@@ -95,6 +95,7 @@ value_from! {
     bool => |value| Self::Bool(value);
     u8 => |value| Self::Int(value.into());
     u32 => |value| Self::Int(value.into());
+    i64 => |value| Self::Int(value);
     u64 => |value| i64::try_from(value).map_or_else(|_| Self::Text(value.to_string()), Self::Int);
     usize => |value| Self::Int(i64::try_from(value).unwrap_or(i64::MAX));
     f64 => |value| Self::Float(value);
@@ -216,6 +217,9 @@ impl Frame<'_> {
             .with_some("parity", values.parity)
             .with_some("temperature", scaled(values.temperature))
             .with_some("speed", scaled(values.speed))
+            .with_some("valid", values.valid)
+            .with_some("zeroDefault", values.zero_default)
+            .with_some("address", values.address)
             .with_some("operation", values.operation)
             .with_some("count", values.count)
             .with_some("enid", values.enid)

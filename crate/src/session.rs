@@ -1,38 +1,43 @@
-//! The host's side of a polled format: requests, replies, time-outs and echo, without any I/O.
+//! The host's side of a serial line: requests, replies, time-outs and echo, or listening to a
+//! stream, without any I/O.
 //!
 //! Feed what arrives to [`Session::handle_input`], call [`Session::handle_timeout`] when
 //! [`Session::deadline`] has come, then drain [`Session::poll_output`]. Time is in microseconds
-//! of any clock that does not run backwards. A session only ever sends its one reading request;
-//! it cannot be made for one that changes the encoder.
+//! of any clock that does not run backwards. A session only ever sends requests that read
+//! ([`Ask`]); what changes an encoder is a [`crate::sequence`].
 //!
-//! Two-wire adapters may return the request before the reply, and a T485 reply starts with the
-//! same byte as the request. The first replies are therefore awaited until the line is quiet:
-//! one byte more than a reply, the request in front and a check that holds behind it are an
-//! echo. After three replies that agree the session knows, and no longer waits.
+//! Two-wire adapters may return the request before the reply, and a reply of T485 or BUS starts
+//! with the same byte as the request. The first replies are therefore awaited until the line is
+//! quiet: one byte more than a reply, the request in front and a check that holds behind it are
+//! an echo. After three replies that agree the session knows, and no longer waits.
 //!
 //! A reply is only sure when it comes alone: the line must be quiet before the first request,
 //! and what comes unasked, or in excess of a reply, makes the session wait for silence. A
 //! reply that is missing may still be on its way, so the next one is not sure, and the
 //! patience grows until replies and requests pair up again.
 
+mod ask;
+
+pub use ask::{Ask, Refusal};
+
 use crate::{
-    bits::Bits,
     decode::Decoder,
-    format::{Format, t485},
-    framing::Why,
+    format::{Format, Link, bus},
+    framing::{Framer, PieceKind, Why},
 };
 use alloc::{collections::VecDeque, vec::Vec};
-use core::fmt;
 
 /// Microseconds.
 pub type Micros = u64;
 
 /// Longest a USB adapter holds bytes back, with room: FTDI's latency timer is 16 ms.
-const QUIET: Micros = 20_000;
+pub(crate) const QUIET: Micros = 20_000;
 /// How long a reply may take beyond its own bytes: request and reply may each be held back.
 /// It doubles with every reply that is missing, up to the longest.
-const TIMEOUT: Micros = 100_000;
+pub(crate) const TIMEOUT: Micros = 100_000;
 const LONGEST_TIMEOUT: Micros = 800_000;
+/// A stream that says nothing for so long is silent.
+const SILENCE: Micros = 500_000;
 /// Replies that must agree before echo is taken as known.
 const AGREE: u8 = 3;
 /// More than any reply: the line is talking without being asked.
@@ -43,14 +48,14 @@ const FLOOD: usize = 64;
 pub enum Output {
     /// Bytes to send.
     Transmit(Vec<u8>),
-    /// A reply of the right length.
+    /// A reply of the right length, or a frame of a stream.
     Frame {
         /// Its bytes.
         bytes: Vec<u8>,
-        /// Whether it stood where the reply must stand.
+        /// Whether it stood where the frame must stand.
         sure: bool,
-        /// Time from the request.
-        latency: Micros,
+        /// Time from the request, where there was one.
+        latency: Option<Micros>,
     },
     /// Bytes that belong to no reply.
     Skip {
@@ -77,37 +82,6 @@ pub enum Echo {
     Present,
 }
 
-/// Why there is no session for a profile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
-    /// The format is not polled over a serial line.
-    NotPolled(Format),
-    /// The request would change the encoder.
-    ChangesEncoder(u8),
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotPolled(format) => {
-                write!(
-                    f,
-                    "{} is not read over a serial port: paste a dump instead",
-                    format.title()
-                )
-            }
-            Self::ChangesEncoder(byte) => {
-                write!(
-                    f,
-                    "0x{byte:02X} changes the encoder and is never sent by polling"
-                )
-            }
-        }
-    }
-}
-
-impl core::error::Error for Refusal {}
-
 #[derive(Clone, Copy, Debug)]
 enum State {
     /// Nothing has been asked yet.
@@ -119,6 +93,8 @@ enum State {
     /// Before the first request and when something went wrong: wait until nothing has come for
     /// a while.
     Draining(Micros),
+    /// A stream is listened to; silent when nothing has come by this time.
+    Listening(Micros),
 }
 
 /// A conversation with one encoder.
@@ -135,9 +111,14 @@ enum State {
 #[derive(Debug)]
 pub struct Session {
     decoder: Decoder,
-    request: u8,
-    /// Bytes of the reply.
-    reply: usize,
+    /// What is asked in turn; nothing for a stream.
+    polls: Vec<Ask>,
+    /// Which of them is next.
+    turn: usize,
+    /// What is asked once, before the next poll.
+    once: VecDeque<Ask>,
+    /// What is being asked.
+    asked: Ask,
     interval: Micros,
     state: State,
     echo: Echo,
@@ -146,33 +127,51 @@ pub struct Session {
     /// A reply was missing and may still come.
     late: bool,
     received: Vec<u8>,
+    framer: Framer,
     output: VecDeque<Output>,
 }
 
 impl Session {
-    /// A session that asks every `interval` microseconds, or with 0 as soon as it has the reply.
+    /// A session that asks every `interval` microseconds, or with 0 as soon as it has the reply;
+    /// a stream is listened to.
     ///
     /// # Errors
     ///
-    /// The format is not polled, or its command would change the encoder.
+    /// The format has no serial line, or its command would change the encoder.
     pub fn new(decoder: Decoder, interval: Micros) -> Result<Self, Refusal> {
         let profile = decoder.profile();
-        let (request, changes) = match profile.format {
-            Format::T485 => (
-                t485::Request::All.byte(),
-                t485::Request::All.changes_encoder(),
-            ),
-            Format::Rs485 => (profile.command.byte(), profile.command.changes_encoder()),
-            Format::BissC => return Err(Refusal::NotPolled(profile.format)),
+        let polls = match profile.format.spec().link {
+            Link::Clocked => return Err(Refusal::NotSerial(profile.format)),
+            Link::Stream => Vec::new(),
+            Link::Polled => Vec::from([Ask::position(&decoder)?]),
         };
-        if changes {
-            return Err(Refusal::ChangesEncoder(request));
-        }
-        let reply = decoder.layout(request).map_or(0, |layout| layout.len / 8);
-        Ok(Self {
+        Ok(Self::with(decoder, polls, interval))
+    }
+
+    /// A session that reads several BUS devices in turn.
+    ///
+    /// # Errors
+    ///
+    /// The format is not BUS.
+    pub fn of_devices(
+        decoder: Decoder,
+        addresses: &[u8],
+        interval: Micros,
+    ) -> Result<Self, Refusal> {
+        let polls = addresses
+            .iter()
+            .map(|address| Ask::device(&decoder, *address))
+            .collect::<Result<_, _>>()?;
+        Ok(Self::with(decoder, polls, interval))
+    }
+
+    fn with(decoder: Decoder, polls: Vec<Ask>, interval: Micros) -> Self {
+        Self {
             decoder,
-            request,
-            reply,
+            asked: polls.first().cloned().unwrap_or_default(),
+            polls,
+            turn: 0,
+            once: VecDeque::new(),
             interval,
             state: State::Fresh,
             echo: Echo::Unknown,
@@ -180,8 +179,14 @@ impl Session {
             timeout: TIMEOUT,
             late: false,
             received: Vec::new(),
+            framer: Framer::joining(),
             output: VecDeque::new(),
-        })
+        }
+    }
+
+    /// Asks once, before the next poll; the answer is a [`Output::Frame`] like any other.
+    pub fn ask(&mut self, ask: Ask) {
+        self.once.push_back(ask);
     }
 
     /// The decoder that reads the replies.
@@ -201,7 +206,7 @@ impl Session {
     pub const fn deadline(&self) -> Micros {
         match self.state {
             State::Fresh => 0,
-            State::Idle(at) | State::Draining(at) => at,
+            State::Idle(at) | State::Draining(at) | State::Listening(at) => at,
             State::Waiting { until, .. } => until,
         }
     }
@@ -213,8 +218,12 @@ impl Session {
 
     /// Bytes have come.
     pub fn handle_input(&mut self, now: Micros, bytes: &[u8]) {
+        if self.is_stream() {
+            self.state = State::Listening(now + SILENCE);
+            return self.listen(bytes);
+        }
         match self.state {
-            State::Fresh | State::Idle(_) | State::Draining(_) => {
+            State::Listening(_) | State::Fresh | State::Idle(_) | State::Draining(_) => {
                 self.skip(bytes, Why::Unasked);
                 let until = self.deadline().max(now + QUIET);
                 self.state = State::Draining(until);
@@ -222,9 +231,10 @@ impl Session {
             State::Waiting { sent, until } => {
                 self.received.extend_from_slice(bytes);
                 let offset = usize::from(self.echo == Echo::Present);
-                let whole = self.received.len() >= self.reply + offset;
-                let exact = self.received.len() == self.reply + offset;
-                let plain = offset == 0 || self.received[0] == self.request;
+                let offset = offset * self.asked.bytes.len();
+                let whole = self.received.len() >= self.asked.reply + offset;
+                let exact = self.received.len() == self.asked.reply + offset;
+                let plain = self.received.get(..offset) == self.asked.bytes.get(..offset);
                 let known = self.echo != Echo::Unknown && !self.late;
                 if known && exact && plain && self.holds_at(offset) {
                     self.accept(now, sent, offset);
@@ -246,12 +256,25 @@ impl Session {
             return;
         }
         match self.state {
+            State::Fresh if self.is_stream() => self.state = State::Listening(now + SILENCE),
+            State::Listening(_) => {
+                self.output.push_back(Output::Silent { echo: false });
+                self.state = State::Listening(now + SILENCE);
+            }
             State::Fresh => self.state = State::Draining(now + QUIET),
             State::Idle(_) | State::Draining(_) => {
-                self.output
-                    .push_back(Output::Transmit([self.request].into()));
-                let bits = 10 * (self.reply as u64 + 2);
+                self.asked = match self.once.pop_front() {
+                    Some(ask) => ask,
+                    None => {
+                        let ask = self.polls.get(self.turn).cloned();
+                        self.turn = (self.turn + 1) % self.polls.len().max(1);
+                        ask.unwrap_or_default()
+                    }
+                };
+                let request = self.asked.bytes.clone();
+                let bits = 10 * (self.asked.reply + 2 * request.len()) as u64;
                 let on_wire = bits * 1_000_000 / u64::from(self.decoder.profile().baud);
+                self.output.push_back(Output::Transmit(request));
                 self.state = State::Waiting {
                     sent: now,
                     until: now + on_wire + self.timeout,
@@ -261,41 +284,67 @@ impl Session {
         }
     }
 
+    fn is_stream(&self) -> bool {
+        self.decoder.profile().format.spec().link == Link::Stream
+    }
+
+    /// Cuts a stream into frames.
+    fn listen(&mut self, bytes: &[u8]) {
+        let output = &mut self.output;
+        self.framer.push(&self.decoder, bytes, &mut |piece| {
+            let bytes = piece.bytes.into();
+            output.push_back(match piece.kind {
+                PieceKind::Frame { sure, .. } => Output::Frame {
+                    bytes,
+                    sure,
+                    latency: None,
+                },
+                PieceKind::Skip(why) => Output::Skip { bytes, why },
+            });
+        });
+    }
+
+    /// When the next request may go out after one at `sent`: devices that heard another's
+    /// address are deaf for a while.
+    fn next_request(&self, now: Micros, sent: Micros) -> Micros {
+        let profile = self.decoder.profile();
+        let deaf = match profile.format {
+            Format::Bus => 10_000_000 / u64::from(profile.baud) + bus::suspend(profile),
+            _ => 0,
+        };
+        now.max(sent + self.interval).max(sent + deaf)
+    }
+
     fn holds_at(&self, offset: usize) -> bool {
-        self.received
-            .get(offset..offset + self.reply)
-            .is_some_and(|bytes| {
-                let layout = self.decoder.layout(self.request);
-                let named = self.decoder.layout(bytes[0]).is_some();
-                let answers =
-                    self.decoder.profile().format != Format::T485 || bytes[0] == self.request;
-                named && answers && layout.is_some_and(|layout| layout.holds(Bits::of_bytes(bytes)))
-            })
+        let reply = self.received.get(offset..offset + self.asked.reply);
+        reply.is_some_and(|bytes| self.asked.is_answered_by(&self.decoder, bytes))
     }
 
     /// A good reply stands at `offset`, which is right for what is known of echo.
     fn accept(&mut self, now: Micros, sent: Micros, offset: usize) {
         self.emit(now, sent, offset, Some(offset));
-        self.state = State::Idle((sent + self.interval).max(now));
+        self.state = State::Idle(self.next_request(now, sent));
     }
 
     /// The line is quiet or the time is up: makes the best of what has come.
     fn judge(&mut self, now: Micros, sent: Micros) {
         let have = self.received.len();
-        let echoed = self.received.first() == Some(&self.request) && have > self.reply;
+        let front = self.asked.bytes.len();
+        let echoed = self.received.starts_with(&self.asked.bytes);
         let plain = self.holds_at(0);
-        let behind = echoed && self.holds_at(1);
+        let behind = echoed && self.holds_at(front);
         // Where both hold, the last byte must be explained as well.
         let found = match (plain, behind) {
             (true, false) => Some(0),
-            (false, true) => Some(1),
-            (true, true) => Some(usize::from(have > self.reply)),
+            (false, true) => Some(front),
+            (true, true) if have > self.asked.reply => Some(front),
+            (true, true) => Some(0),
             (false, false) => None,
         };
         if let Some(offset) = found {
-            let alone = have == self.reply + offset;
+            let alone = have == self.asked.reply + offset;
             if alone && !self.late {
-                self.vote(if offset == 1 {
+                self.vote(if offset > 0 {
                     Echo::Present
                 } else {
                     Echo::Absent
@@ -309,26 +358,27 @@ impl Session {
             self.state = State::Draining(now + quiet);
             return;
         }
-        let only_echo = have == 1 && self.received[0] == self.request;
+        let only_echo = echoed && have == front;
         if have == 0 || only_echo {
             let bytes = core::mem::take(&mut self.received);
             self.skip(&bytes, Why::Request);
             self.output.push_back(Output::Silent { echo: only_echo });
             self.late = true;
             self.timeout = (2 * self.timeout).min(LONGEST_TIMEOUT);
-        } else if have < self.reply {
+        } else if have < self.asked.reply {
             let bytes = core::mem::take(&mut self.received);
             self.skip(
                 &bytes,
                 Why::Truncated {
                     have,
-                    need: self.reply,
+                    need: self.asked.reply,
                 },
             );
         } else {
-            let last = have - self.reply;
-            let exact = usize::from(self.echo == Echo::Present).min(last);
-            let late = (last > 1 && self.holds_at(last)).then_some(last);
+            let last = have - self.asked.reply;
+            let echo = if self.echo == Echo::Present { front } else { 0 };
+            let exact = echo.min(last);
+            let late = (last > front && self.holds_at(last)).then_some(last);
             self.emit(now, sent, late.unwrap_or(exact), None);
         }
         self.state = State::Draining(now + QUIET);
@@ -360,8 +410,8 @@ impl Session {
     fn emit(&mut self, now: Micros, sent: Micros, offset: usize, good: Option<usize>) {
         let bytes = core::mem::take(&mut self.received);
         let (before, rest) = bytes.split_at(offset);
-        let (reply, after) = rest.split_at(self.reply);
-        let why = if before == [self.request] {
+        let (reply, after) = rest.split_at(self.asked.reply);
+        let why = if before == self.asked.bytes {
             Why::Request
         } else {
             Why::NoFrame
@@ -370,7 +420,7 @@ impl Session {
         self.output.push_back(Output::Frame {
             bytes: reply.into(),
             sure: good.is_some(),
-            latency: now - sent,
+            latency: Some(now - sent),
         });
         self.skip(after, Why::NoFrame);
     }

@@ -80,7 +80,7 @@ pub fn stretches(decoder: &Decoder, dump: &Dump) -> Vec<Stretch> {
 #[must_use]
 pub fn framed(decoder: &Decoder, cuts: &[&[u8]]) -> Vec<Stretch> {
     let mut out = Vec::new();
-    let mut framer = Framer::new(decoder);
+    let mut framer = Framer::at_start();
     let mut sink = |piece: encoderscope::framing::Piece<'_>| {
         out.push(match piece.kind {
             PieceKind::Frame { layout, sure } => {
@@ -91,9 +91,9 @@ pub fn framed(decoder: &Decoder, cuts: &[&[u8]]) -> Vec<Stretch> {
         });
     };
     for cut in cuts {
-        framer.push(cut, &mut sink);
+        framer.push(decoder, cut, &mut sink);
     }
-    framer.finish(&mut sink);
+    framer.finish(decoder, &mut sink);
     out
 }
 

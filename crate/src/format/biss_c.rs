@@ -21,19 +21,46 @@
 //! CRC; their own status table and frame lengths fit only error b13, warning b12, status
 //! b11…b6, CRC b5…b0. The CRC-6 polynomial is x⁶+x+1, not x⁶+x⁵+1.
 
-use super::STATUS;
+use super::{Format, Limits, Link, STATUS, Spec};
 use crate::{
     bits::Bits,
     check::Checksum,
+    decode::Shapes,
     layout::{Active, Check, Shape, layout},
-    profile::{Justify, Profile},
+    profile::{Justify, Profile, StatusActive},
+};
+
+/// BiSS-C.
+pub const SPEC: Spec = Spec {
+    name: "biss-c",
+    title: "BiSS-C",
+    link: Link::Clocked,
+    parameters: &[
+        "angle-bits",
+        "turns-bits",
+        "turns-code",
+        "status-bits",
+        "status-active",
+        "ack-bits",
+        "justify",
+    ],
+    limits: Limits {
+        angle: 64,
+        turns: 32,
+        together: 64,
+        frame: (0, 0),
+    },
+    default: Profile {
+        justify: Justify::Left,
+        ..Profile::base(Format::BissC)
+    },
 };
 
 layout! {
     /// BiSS-C frame with what stands around it in a dump.
     pub static FRAME(p) {
         /// Line idle before the frame.
-        idle: Framing[p.idle], active = Active::Low;
+        idle: Framing[p.idle], rest = |_| u64::MAX;
         /// Acknowledge: the encoder pulls the line low while it gets its data ready.
         ack: Framing[if p.preamble { p.ack } else { 0 }], constant = Some(0);
         /// Start bit, the first bit after the latency.
@@ -49,7 +76,11 @@ layout! {
         /// Active low: 0 says that something is near its limit; the position is valid.
         nWarning: Warning[1], active = Active::Low;
         /// Battery, magnetic field, temperature and speed.
-        status: Status[p.status_bits], bits = STATUS;
+        status: Status[if p.status_active == StatusActive::High { p.status_bits } else { 0 }],
+            bits = STATUS;
+        /// Battery, magnetic field, temperature and speed; 0 says that the condition is there.
+        status: Status[if p.status_active == StatusActive::Low { p.status_bits } else { 0 }],
+            bits = STATUS, active = Active::Low;
         /// Inverted remainder over everything from the turns to the bit before it.
         crc: Crc[6], check = Check::from(Checksum::Crc6Biss, "turns");
         /// Time-out and line idle after the frame.
@@ -63,14 +94,10 @@ pub const fn data_bits(profile: &Profile) -> u32 {
     profile.turns_bits + profile.angle_bits + 2 + profile.status_bits + Checksum::Crc6Biss.width()
 }
 
-/// The shapes that a line of a dump can have, the likeliest first: behind a preamble, alone
-/// from the first bit on, alone up to the last bit.
+/// Finds the shapes that a line can have: behind a preamble, alone from the first bit on, alone
+/// up to the last bit.
 ///
-/// Data that starts with zeros and a one looks like a preamble too, so several may fit; which
-/// one is meant is decided over all lines of a dump, by [`crate::decode::Decoder::dump`].
-pub type Shapes = [Option<Shape>; 3];
-
-/// Finds the shapes that a line can have.
+/// Data that starts with zeros and a one looks like a preamble too, so several may fit.
 ///
 /// # Errors
 ///
@@ -101,11 +128,11 @@ fn left(profile: &Profile, bits: Bits<'_>, spare: u32) -> Result<Shapes, u32> {
         match spare.checked_sub(idle + ack + 2) {
             Some(tail) => {
                 shapes[0] = Some(Shape {
-                    profile: *profile,
                     idle,
                     preamble: true,
                     ack,
                     tail,
+                    ..Shape::of(*profile)
                 });
             }
             // A capture with the profile's own preamble that ends too early is a short frame:
@@ -126,21 +153,19 @@ fn right(profile: &Profile, bits: Bits<'_>, before: u32) -> Option<Shape> {
         .take_while(|at| !bits.bit(*at as usize))
         .count() as u32;
     (bits.bit(start as usize) && zeros > 0).then(|| Shape {
-        profile: *profile,
         idle: start - zeros,
-        preamble: true,
         ack: zeros,
-        tail: 0,
+        ..Shape::of(*profile)
     })
 }
 
 const fn bare(profile: &Profile, idle: u32, tail: u32) -> Shape {
     Shape {
-        profile: *profile,
         idle,
         preamble: false,
         ack: 0,
         tail,
+        ..Shape::of(*profile)
     }
 }
 

@@ -20,10 +20,26 @@
 //! (single turn: five), 0x31 six. PT's commands 0x21, 0731 and 0704 are 0x31, 0x64 and 0x74.
 //! PT's CRC table is damaged; the polynomial is right.
 
-use super::STATUS;
+use super::{Format, Limits, Link, STATUS, Spec};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, layout},
+    profile::Profile,
+};
+
+/// RS485.
+pub const SPEC: Spec = Spec {
+    name: "rs485",
+    title: "RS485",
+    link: Link::Polled,
+    parameters: &["angle-bits", "turns-bits", "turns-code", "command", "baud"],
+    limits: Limits {
+        angle: 24,
+        turns: 16,
+        together: 40,
+        frame: (0, 0),
+    },
+    default: Profile::base(Format::Rs485),
 };
 
 /// A command of the host.

@@ -20,9 +20,29 @@
 //! Where the manuals mislead: the data is right-aligned, not left-aligned (note 1); the CRC is
 //! x⁸+1, not x+1 (note 2); the "17" of byte 5 is the ENID, 0x17 or 0x11, and is never required.
 
+use super::{Format, Limits, Link, Spec};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, Role, StatusBit, layout},
+    profile::{Dialect, Profile},
+};
+
+/// T485.
+pub const SPEC: Spec = Spec {
+    name: "t485",
+    title: "T485",
+    link: Link::Polled,
+    parameters: &["angle-bits", "turns-bits", "turns-code", "dialect", "baud"],
+    limits: Limits {
+        angle: 24,
+        turns: 24,
+        together: 48,
+        frame: (0, 0),
+    },
+    default: Profile {
+        angle_bits: 23,
+        ..Profile::base(Format::T485)
+    },
 };
 
 /// A request of the host, named by its effect.
@@ -96,6 +116,27 @@ impl Request {
         }
     }
 
+    /// Whether encoders of a dialect know it; others answer with a communication error.
+    #[must_use]
+    pub const fn is_known_to(self, dialect: Dialect) -> bool {
+        match self {
+            Self::Angle | Self::Turns | Self::All | Self::ResetAngle | Self::ResetTurns => true,
+            Self::Identity | Self::MemoryWrite | Self::ResetErrors | Self::MemoryRead => {
+                matches!(dialect, Dialect::Tamagawa)
+            }
+        }
+    }
+
+    /// The layout of the request itself.
+    #[must_use]
+    pub fn request(self) -> &'static Layout {
+        match self {
+            Self::MemoryRead => &MEMORY_READ,
+            Self::MemoryWrite => &MEMORY,
+            _ => &HEAD,
+        }
+    }
+
     /// The layout of the reply.
     #[must_use]
     pub fn reply(self) -> &'static Layout {
@@ -137,7 +178,7 @@ pub static STATUS_FIELD: &[StatusBit] = &[
     },
 ];
 
-/// The alarm byte of MPP and PT (manual: E). On Tamagawa's own encoders the bits differ.
+/// The alarm byte of MPP and PT (manual: E).
 pub static ALARM: &[StatusBit] = &[
     StatusBit {
         place: 7,
@@ -153,11 +194,64 @@ pub static ALARM: &[StatusBit] = &[
     },
 ];
 
+/// The alarm byte of Tamagawa's own encoders (ALMC); its battery bits mean the opposite of those
+/// of MPP and PT.
+pub static TAMAGAWA_ALARM: &[StatusBit] = &[
+    StatusBit {
+        place: 7,
+        name: "battery alarm",
+        doc: "the battery is low, the turns are still good; replace it",
+        role: None,
+    },
+    StatusBit {
+        place: 6,
+        name: "battery error",
+        doc: "the battery was lost and the turns with it; replace it, then reset",
+        role: None,
+    },
+    StatusBit {
+        place: 5,
+        name: "multi-turn error",
+        doc: "the turn counter is wrong; reset it at a known position",
+        role: None,
+    },
+    StatusBit {
+        place: 4,
+        name: "overheat",
+        doc: "the encoder is too hot",
+        role: None,
+    },
+    StatusBit {
+        place: 3,
+        name: "counter overflow",
+        doc: "the turn counter has run over",
+        role: None,
+    },
+    StatusBit {
+        place: 2,
+        name: "counting error",
+        doc: "the position was miscounted; power-cycle at standstill",
+        role: None,
+    },
+    StatusBit {
+        place: 1,
+        name: "full absolute status",
+        doc: "the shaft turned too fast at power-on; the resolution is reduced until it slows down",
+        role: None,
+    },
+    StatusBit {
+        place: 0,
+        name: "overspeed",
+        doc: "the shaft turned too fast while on battery; reset the turns",
+        role: None,
+    },
+];
+
 layout! {
     /// The control byte, echoed from the request, and the status field.
     pub static HEAD(p) {
         /// Makes the number of ones in the operation even.
-        control_parity: Parity[1], check = Check::of(Checksum::EvenParity, "operation");
+        control_parity: Parity[1], check = Check::rows(Checksum::EvenParity, "operation", "operation");
         /// What the host asked for (Tamagawa data ID).
         operation: Operation[4];
         /// Fixed pattern 010 of every control byte.
@@ -251,14 +345,27 @@ layout! {
         include ANGLE_DATA;
         include ENID;
         include TURNS_DATA;
-        /// Battery alarms (manual: E, Tamagawa: ALMC).
-        alarm: Alarm[8], bits = ALARM;
+        /// Battery alarms (manual: E).
+        alarm: Alarm[if p.dialect == Dialect::Mpp { 8 } else { 0 }], bits = ALARM;
+        /// Alarms (Tamagawa: ALMC).
+        alarm: Alarm[if p.dialect == Dialect::Tamagawa { 8 } else { 0 }], bits = TAMAGAWA_ALARM;
         include CRC;
     }
 }
 
 layout! {
-    /// EEPROM frame, four bytes: the reply to 0x32 and 0xEA (Tamagawa only).
+    /// EEPROM read request, three bytes: 0xEA (Tamagawa only).
+    pub static MEMORY_READ(p) {
+        include HEAD;
+        /// Address in the EEPROM.
+        memory_address: MemoryAddress[8];
+        include CRC;
+    }
+}
+
+layout! {
+    /// EEPROM frame, four bytes: the request 0x32, and the reply to it and to 0xEA (Tamagawa
+    /// only).
     pub static MEMORY(p) {
         include HEAD;
         /// Address in the EEPROM.

@@ -25,7 +25,11 @@ pub(super) struct Position {
 }
 
 impl Position {
-    pub(super) fn of(layout: &Resolved, values: &Values) -> Option<Self> {
+    pub(super) fn of(layout: &Resolved, frame: &[u8]) -> Option<Self> {
+        Self::from_values(layout, &layout.values(Bits::of_bytes(frame)))
+    }
+
+    fn from_values(layout: &Resolved, values: &Values) -> Option<Self> {
         let profile = &layout.shape.profile;
         let angle = values.angle? as f64 / bits::codes(profile.angle_bits) as f64;
         Some(match values.turns {
@@ -41,7 +45,7 @@ impl Position {
     }
 
     /// How far apart two positions are, in turns, the shorter way round.
-    fn distance(self, other: Self) -> f64 {
+    pub(super) fn distance(self, other: Self) -> f64 {
         let apart = (self.turns - other.turns).abs();
         apart.min((self.range - apart).abs())
     }
@@ -103,7 +107,8 @@ impl<'b> Chain<'b> {
             .any(|(visited, _)| *visited == at)
     }
 
-    pub(super) fn add(&mut self, layout: &Resolved, frame: &'b [u8], at: usize) {
+    /// Counts a frame that passes; `names` is what its first byte says for it.
+    pub(super) fn add(&mut self, layout: &Resolved, frame: &'b [u8], at: usize, names: i32) {
         let known = self.frames[..self.passes]
             .iter()
             .any(|(_, other)| *other == frame);
@@ -113,11 +118,12 @@ impl<'b> Chain<'b> {
                 self.score += REPEATS;
             }
         } else {
-            self.score += match frame.last() {
+            let late = layout.is_zero_led && frame.last() == Some(&0);
+            self.score += match late {
                 // Once may be chance.
-                Some(0) if self.distinct == 0 => 0,
-                Some(0) => LATE,
-                _ => layout.redundancy as i32,
+                true if self.distinct == 0 => 0,
+                true => LATE,
+                false => layout.redundancy as i32 + names,
             };
             self.distinct += 1;
         }
@@ -128,7 +134,7 @@ impl<'b> Chain<'b> {
             self.score += JUMPS;
         }
         self.status = values.status;
-        let Some(position) = Position::of(layout, &values) else {
+        let Some(position) = Position::from_values(layout, &values) else {
             return;
         };
         if self.passes <= 2 {

@@ -11,7 +11,7 @@ fn stream(decoder: &Decoder, count: usize, turns: f64, step: f64) -> Vec<Vec<u8>
         .map(|index| {
             let position = turns + step * index as f64;
             let values = Values {
-                turns: Some(position as u64),
+                turns: Some(position as i64),
                 angle: Some((position.fract() * 2f64.powi(profile.angle_bits as i32)) as u64),
                 error: Some(false),
                 warning: Some(false),

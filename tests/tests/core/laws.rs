@@ -23,7 +23,7 @@ fn layouts(mut run: impl FnMut(&str, &Resolved)) {
             for request in t485::Request::ALL {
                 run(
                     &format!("{name} {request:?}"),
-                    decoder_t485.layout(request.byte()).unwrap(),
+                    decoder_t485.layout(&[request.byte()]).unwrap(),
                 );
             }
         }

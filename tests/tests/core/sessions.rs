@@ -58,7 +58,7 @@ impl Pair {
                     Output::Transmit(bytes) => self.emulator.handle_input(self.now, &bytes),
                     Output::Frame { bytes, sure, .. } => {
                         log.framed += bytes.len();
-                        let layout = self.session.decoder().layout(bytes[0]);
+                        let layout = self.session.decoder().layout(&bytes);
                         let reading = layout.and_then(|layout| {
                             layout.reading(Bits::of_bytes(&bytes)).ok().flatten()
                         });
@@ -256,7 +256,7 @@ fn a_late_reply_is_not_taken_for_the_next_one() {
                     latency,
                     ..
                 } => {
-                    assert!(latency >= delay, "{latency}");
+                    assert!(latency.is_some_and(|latency| latency >= delay), "{latency:?}");
                     sure += 1;
                 }
                 _ => {}

@@ -85,7 +85,7 @@ fn request(name: &str, vector: &Value) {
     let byte = u8::from_str_radix(hex_or_bits(vector), 16).unwrap();
     let request = Request::of_byte(byte).unwrap_or_else(|| panic!("{name}"));
     let decoder = decoder("format=t485");
-    let layout = decoder.layout(byte).unwrap();
+    let layout = decoder.layout(&[byte]).unwrap();
     assert_eq!(
         layout.len / 8,
         vector["expected"]["reply_len"].as_u64().unwrap() as usize,

@@ -1,0 +1,79 @@
+//! How an emulated shaft moves.
+
+use crate::session::Micros;
+
+/// How the shaft moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shaft {
+    /// Turns at time 0.
+    pub start: f64,
+    /// Revolutions per second.
+    pub speed: f64,
+    /// Turns by which it swings to both sides of that motion.
+    pub sway: f64,
+    /// Seconds of one swing to and fro.
+    pub period: f64,
+}
+
+impl Shaft {
+    /// A shaft that stands still.
+    #[must_use]
+    pub const fn still(turns: f64) -> Self {
+        Self {
+            start: turns,
+            speed: 0.0,
+            sway: 0.0,
+            period: 1.0,
+        }
+    }
+
+    /// A shaft that turns evenly.
+    #[must_use]
+    pub const fn turning(turns: f64, speed: f64) -> Self {
+        Self {
+            start: turns,
+            speed,
+            sway: 0.0,
+            period: 1.0,
+        }
+    }
+
+    /// Where it is, in turns.
+    ///
+    /// ```
+    /// use encoderscope::emulator::Shaft;
+    /// assert_eq!(Shaft::turning(0.5, 2.0).at(1_000_000), 2.5);
+    /// ```
+    #[must_use]
+    pub fn at(&self, now: Micros) -> f64 {
+        let seconds = now as f64 / 1e6;
+        self.start + self.speed * seconds + self.sway * swing(seconds / self.period)
+    }
+
+    /// How fast it turns, in revolutions per second.
+    #[must_use]
+    pub fn speed_at(&self, now: Micros) -> f64 {
+        (self.at(now + 500) - self.at(now.saturating_sub(500))) * 1000.0
+    }
+}
+
+/// A smooth wave of period 1 between −1 and 1, two parabolas.
+fn swing(phase: f64) -> f64 {
+    let (_, x) = split(phase);
+    if x < 0.5 {
+        16.0 * x * (0.5 - x)
+    } else {
+        -16.0 * (x - 0.5) * (1.0 - x)
+    }
+}
+
+/// Whole turns and the part of a turn, which is never negative.
+pub(super) fn split(turns: f64) -> (i64, f64) {
+    let whole = turns as i64;
+    let part = turns - whole as f64;
+    if part < 0.0 {
+        (whole - 1, part + 1.0)
+    } else {
+        (whole, part)
+    }
+}

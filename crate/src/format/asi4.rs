@@ -1,0 +1,66 @@
+//! ASI4: the text stream of the IP-75 inductosyn (IP-75, 5.3.2).
+//!
+//! 230 400 baud, 8N1; every two milliseconds a decimal number in ASCII, then CR LF. Pasted lines
+//! of numbers are read as they are.
+//!
+//! ```
+//! use encoderscope::{decode::Decoder, profile::Profile};
+//! let decoder = Decoder::new(Profile::parse([("format", "asi4")])?)?;
+//! let frame = decoder.frame(b"8192\r\n").unwrap();
+//! let values = frame.values();
+//! assert_eq!(values.angle, Some(8192));
+//! assert_eq!(decoder.encode(&values).into_bytes(), b"8192\r\n");
+//! assert!(!decoder.frame(b"16384\r\n").unwrap().ok());
+//! # Ok::<(), encoderscope::profile::ProfileError>(())
+//! ```
+//!
+//! Where the manual misleads: it gives the range as 0…16384; 14 bits end at 16383.
+
+use super::{Format, Limits, Link, Spec};
+use crate::{layout::layout, profile::Profile};
+
+/// ASI4.
+pub const SPEC: Spec = Spec {
+    name: "asi4",
+    title: "ASI4",
+    link: Link::Stream,
+    parameters: &["angle-bits", "baud"],
+    limits: Limits {
+        angle: 16,
+        turns: 0,
+        together: 16,
+        frame: (0, 0),
+    },
+    default: Profile {
+        angle_bits: 14,
+        turns_bits: 0,
+        baud: 230_400,
+        ..Profile::base(Format::Asi4)
+    },
+};
+
+/// Microseconds from one line to the next.
+pub const INTERVAL: u64 = 2_000;
+/// The most digits that a line can have.
+pub const DIGITS: usize = 5;
+
+layout! {
+    /// ASI4 line.
+    pub static LINE(p) {
+        decimal {
+            /// Angle within one turn, in decimal digits.
+            angle: Angle[8 * p.digits];
+        }
+        /// Carriage return.
+        cr: Framing[8], constant = Some(0x0d);
+        /// Line feed.
+        lf: Framing[8], constant = Some(0x0a);
+    }
+}
+
+/// How many digits the line at the start of `bytes` has; nothing where no line is.
+#[must_use]
+pub fn digits(bytes: &[u8]) -> Option<usize> {
+    let end = bytes.iter().take(DIGITS + 1).position(|byte| *byte == b'\r')?;
+    (end > 0 && bytes[..end].iter().all(u8::is_ascii_digit)).then_some(end)
+}

@@ -1,0 +1,111 @@
+//! SSI of MPP and PT encoders (MPP "SSI", PT "SSI").
+//!
+//! `turns angle error warning status`, most significant bit first, no check at all. The first
+//! falling edge of the clock latches the position; data changes on rising edges and is sampled
+//! on falling ones, so n bits need n+1 falling edges.
+//!
+//! ```
+//! use encoderscope::{bits::Bits, decode::Decoder, profile::Profile};
+//! let decoder = Decoder::new(Profile::parse([("format", "ssi"), ("angle-bits", "16")])?)?;
+//! // Turns 5, a quarter turn, a warning, the battery low.
+//! let word = [0x00, 0x05, 0x40, 0x00, 0b0101_0000];
+//! let frame = decoder.line(Bits::of_bytes(&word)).unwrap();
+//! let values = frame.values();
+//! assert_eq!((values.turns, values.angle), (Some(5), Some(0x4000)));
+//! assert_eq!((values.error, values.warning, values.status), (Some(false), Some(true), Some(16)));
+//! assert_eq!(decoder.encode(&values).as_bits().bytes(), word);
+//! # Ok::<(), encoderscope::profile::ProfileError>(())
+//! ```
+//!
+//! Where the manuals mislead: MPP's row calls b5…b0 "1 bit", there are six; the row "t_CL 400
+//! ns…14 µs" is the clock's period and contradicts the row of frequencies, which is right.
+
+use super::{Format, Limits, Link, STATUS, Spec};
+use crate::{
+    bits::Bits,
+    decode::Shapes,
+    layout::{Layout, Resolved, Shape, layout},
+    profile::{Justify, Profile},
+};
+
+/// SSI.
+pub const SPEC: Spec = Spec {
+    name: "ssi",
+    title: "SSI",
+    link: Link::Clocked,
+    parameters: &["angle-bits", "turns-bits", "turns-code", "justify"],
+    limits: Limits {
+        angle: 32,
+        turns: 16,
+        together: 48,
+        frame: (0, 0),
+    },
+    default: Profile::base(Format::Ssi),
+};
+
+layout! {
+    /// SSI word of MPP and PT with what stands around it in a dump.
+    pub static WORD(p) {
+        include BEFORE;
+        /// Whole turns; only models M, BM and FM send them.
+        turns: Turns[p.turns_bits];
+        /// Angle within one turn.
+        angle: Angle[p.angle_bits];
+        /// The position is not valid; the encoder's LED is red.
+        error: Error[1];
+        /// The position is valid, but the status names something near its limit; LED yellow.
+        warning: Warning[1];
+        /// Battery, magnetic field, temperature and speed.
+        status: Status[6], bits = STATUS;
+        include AFTER;
+    }
+}
+
+layout! {
+    /// What stands before an SSI word in a dump.
+    pub static BEFORE(p) {
+        /// Bits in front of a number that is narrower than its bytes.
+        unused: Padding[p.unused];
+        /// Line idle before the word.
+        idle: Framing[p.idle], rest = |_| u64::MAX;
+    }
+}
+
+layout! {
+    /// What stands behind an SSI word in a dump.
+    pub static AFTER(p) {
+        /// Bits clocked after the word.
+        tail: Framing[p.tail];
+    }
+}
+
+/// The shape of a line that holds an SSI word.
+///
+/// # Errors
+///
+/// The line is too short; says how many bits it would need.
+pub fn shapes(
+    table: &'static Layout,
+    profile: &Profile,
+    bits: Bits<'_>,
+) -> Result<Shapes, u32> {
+    let plain = Shape::of(*profile);
+    let word = Resolved::new(table, plain).len as u32;
+    let spare = (bits.len() as u32).checked_sub(word).ok_or(word)?;
+    let all = |level: bool| (0..spare as usize).all(|at| bits.bit(at) == level);
+    let shape = match profile.justify {
+        Justify::Left => Shape {
+            tail: spare,
+            ..plain
+        },
+        Justify::Right if all(true) => Shape {
+            idle: spare,
+            ..plain
+        },
+        Justify::Right => Shape {
+            unused: spare,
+            ..plain
+        },
+    };
+    Ok([Some(shape), None, None])
+}

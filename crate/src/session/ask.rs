@@ -1,0 +1,167 @@
+//! What a session may ask: requests that read, and never one that changes the encoder.
+
+use crate::{
+    bits::Bits,
+    decode::Decoder,
+    format::{
+        Format,
+        bus::{self, Operation},
+        t485::Request,
+    },
+    layout::{Resolved, Role, Shape},
+    profile::Profile,
+    reading::Values,
+};
+use alloc::vec::Vec;
+use core::fmt;
+
+/// A request that reads, and the reply it should get.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Ask {
+    /// The request.
+    pub(super) bytes: Vec<u8>,
+    /// Bytes of the reply.
+    pub(super) reply: usize,
+    /// Whether the reply begins with the first byte of the request.
+    echoes: bool,
+    /// The EEPROM address that the reply must name.
+    memory: Option<u8>,
+}
+
+/// Why something cannot be asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// The format does not come over a serial line.
+    NotSerial(Format),
+    /// The format has no such request.
+    NotOf(Format),
+    /// The request would change the encoder.
+    ChangesEncoder(u8),
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotSerial(format) => write!(
+                f,
+                "{} is not read over a serial port: paste a dump instead",
+                format.title()
+            ),
+            Self::NotOf(format) => write!(f, "{} has no such request", format.title()),
+            Self::ChangesEncoder(byte) => write!(
+                f,
+                "0x{byte:02X} changes the encoder and is never sent by polling"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for Refusal {}
+
+impl Ask {
+    /// What reads the position: T485 everything, RS485 the profile's command, BUS the profile's
+    /// device.
+    ///
+    /// # Errors
+    ///
+    /// The format is not polled, or the profile's command changes the encoder.
+    pub fn position(decoder: &Decoder) -> Result<Self, Refusal> {
+        let profile = decoder.profile();
+        match profile.format {
+            Format::T485 => Self::t485(decoder, Request::All, 0),
+            Format::Bus => Self::device(decoder, crate::bits::low_byte(profile.address.into())),
+            Format::Rs485 if profile.command.changes_encoder() => {
+                Err(Refusal::ChangesEncoder(profile.command.byte()))
+            }
+            Format::Rs485 => Self::byte(decoder, profile.command.byte()),
+            other => Err(Refusal::NotSerial(other)),
+        }
+    }
+
+    /// A T485 request; `memory` is the EEPROM address where the request has one.
+    ///
+    /// ```
+    /// use encoderscope::{decode::Decoder, format::t485::Request, profile::Profile, session::{Ask, Refusal}};
+    /// let profile = Profile::parse([("format", "t485"), ("dialect", "tamagawa")])?;
+    /// let decoder = Decoder::new(profile)?;
+    /// assert!(Ask::t485(&decoder, Request::MemoryRead, 0x10).is_ok());
+    /// let reset = Ask::t485(&decoder, Request::ResetAngle, 0);
+    /// assert_eq!(reset, Err(Refusal::ChangesEncoder(0xc2)));
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// The request would change the encoder, or the format is not T485.
+    pub fn t485(decoder: &Decoder, request: Request, memory: u8) -> Result<Self, Refusal> {
+        let format = decoder.profile().format;
+        if format != Format::T485 {
+            return Err(Refusal::NotOf(format));
+        }
+        if request.changes_encoder() {
+            return Err(Refusal::ChangesEncoder(request.byte()));
+        }
+        let bytes = request.bytes(decoder.profile(), memory, 0);
+        Ok(Self {
+            memory: (request == Request::MemoryRead).then_some(memory),
+            ..Self::with(decoder, bytes)?
+        })
+    }
+
+    /// The position of a BUS device.
+    ///
+    /// # Errors
+    ///
+    /// The format is not BUS.
+    pub fn device(decoder: &Decoder, address: u8) -> Result<Self, Refusal> {
+        let profile = decoder.profile();
+        match profile.format {
+            Format::Bus => Self::byte(decoder, bus::request(profile, Operation::Get, address)),
+            other => Err(Refusal::NotOf(other)),
+        }
+    }
+
+    fn byte(decoder: &Decoder, byte: u8) -> Result<Self, Refusal> {
+        Self::with(decoder, [byte].into())
+    }
+
+    fn with(decoder: &Decoder, bytes: Vec<u8>) -> Result<Self, Refusal> {
+        let layout = decoder
+            .layout(&bytes)
+            .ok_or(Refusal::NotOf(decoder.profile().format))?;
+        Ok(Self {
+            reply: layout.len / 8,
+            echoes: decoder.echoes(),
+            memory: None,
+            bytes,
+        })
+    }
+
+    /// Whether `reply` is a good answer.
+    pub(crate) fn is_answered_by(&self, decoder: &Decoder, reply: &[u8]) -> bool {
+        let answers = !self.echoes || reply.first() == self.bytes.first();
+        let bits = Bits::of_bytes(reply);
+        let holds = decoder.layout(reply).is_some_and(|layout| {
+            let named = self.memory.is_none() || layout.values(bits).memory.0 == self.memory;
+            named && layout.len == bits.len() && layout.holds(bits)
+        });
+        answers && holds
+    }
+}
+
+impl Request {
+    /// The bytes of the request: the control byte, with EEPROM address, data and CRC where it has
+    /// them.
+    #[must_use]
+    pub(crate) fn bytes(self, profile: &Profile, address: u8, data: u8) -> Vec<u8> {
+        let layout = Resolved::new(self.request(), Shape::of(*profile));
+        let values = Values {
+            memory: (Some(address), Some(data)),
+            ..Values::default()
+        };
+        let mut out = layout.encode(&values);
+        out.write(crate::bits::Span::new(0, 8), u64::from(self.byte()));
+        layout.seal(&mut out, Role::Crc);
+        out.into_bytes()
+    }
+}
