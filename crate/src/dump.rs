@@ -57,7 +57,13 @@ impl Dump {
 pub fn parse(text: &str, medium: Medium) -> Dump {
     let mut dump = Dump::default();
     if medium == Medium::Text && is_decimal(text) {
-        dump.lines = text.split_whitespace().map(decimal_line).collect();
+        for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+            let at = line.as_ptr() as usize - text.as_ptr() as usize;
+            match is_number(line) {
+                true => dump.lines.push(decimal_line(line)),
+                false => dump.unread.push(at..at + line.len()),
+            }
+        }
         return dump;
     }
     let all: Vec<Token<'_>> = text.lines().flat_map(tokens_of).collect();
@@ -89,10 +95,15 @@ pub fn parse(text: &str, medium: Medium) -> Dump {
     dump
 }
 
-/// Whether the text is what a terminal shows of a stream of decimal numbers: one a line.
+/// Whether the text is what a terminal shows of a stream of decimal numbers, one a line: then
+/// there is no line feed among its bytes, as there is in every dump of such a stream.
 fn is_decimal(text: &str) -> bool {
-    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-    lines.all(|line| line.len() <= LONGEST_NUMBER && line.bytes().all(|digit| digit.is_ascii_digit()))
+    let dumped = text.to_ascii_lowercase().contains("0a");
+    !dumped && text.lines().any(|line| is_number(line.trim()))
+}
+
+fn is_number(line: &str) -> bool {
+    (1..=LONGEST_NUMBER).contains(&line.len()) && line.bytes().all(|digit| digit.is_ascii_digit())
 }
 
 /// A number as it was on the wire.

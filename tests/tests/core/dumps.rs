@@ -107,7 +107,7 @@ fn bad_parameters_are_named_with_what_would_fit() {
     );
     assert_eq!(
         profile_error(&[]),
-        "format: is missing; known: biss-c rs485 t485"
+        "format: is missing; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree"
     );
     assert_eq!(
         profile_error(&[("format", "t485"), ("angle-bits", "40")]),
