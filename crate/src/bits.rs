@@ -89,10 +89,7 @@ impl<'a> Bits<'a> {
             && span.end() <= self.len
             && let Some(bytes) = self.bytes.get(first..last)
         {
-            let word = bytes
-                .iter()
-                .fold(0, |word, byte| word << 8 | u64::from(*byte));
-            return (word >> (last * 8 - span.end())) & mask(span.len);
+            return (word(bytes) >> (last * 8 - span.end())) & mask(span.len);
         }
         let mut value = 0u64;
         let mut at = span.start;
@@ -213,8 +210,25 @@ impl BitString {
     }
 }
 
+/// Up to eight bytes as one number, the first byte the most significant.
+#[must_use]
+#[inline]
+pub fn word(bytes: &[u8]) -> u64 {
+    match (bytes.first_chunk::<4>(), bytes.last_chunk::<4>()) {
+        // The two halves overlap where there are fewer than eight bytes, and agree there.
+        (Some(first), Some(last)) => {
+            let below = (bytes.len().min(8) - 4) * 8;
+            u64::from(u32::from_be_bytes(*first)) << below | u64::from(u32::from_be_bytes(*last))
+        }
+        _ => bytes
+            .iter()
+            .fold(0, |word, byte| word << 8 | u64::from(*byte)),
+    }
+}
+
 /// `width` ones, right-aligned; 64 or more give all ones.
 #[must_use]
+#[inline]
 pub const fn mask(width: usize) -> u64 {
     if width >= 64 {
         u64::MAX
@@ -237,6 +251,7 @@ pub const fn bit(value: u64, place: u32) -> bool {
 
 /// The `width` bits of `value` whose least significant one stands at `place`.
 #[must_use]
+#[inline]
 pub const fn slice(value: u64, place: u32, width: usize) -> u64 {
     if place > 63 {
         0
@@ -245,8 +260,16 @@ pub const fn slice(value: u64, place: u32, width: usize) -> u64 {
     }
 }
 
+/// What of `value` stands above its lowest `place` bits, for places below 64.
+#[must_use]
+#[inline]
+pub const fn above(value: u64, place: u32) -> u64 {
+    value.wrapping_shr(place)
+}
+
 /// `value` moved up so that its least significant bit stands at `place`.
 #[must_use]
+#[inline]
 pub const fn placed(value: u64, place: u32) -> u64 {
     if place > 63 { 0 } else { value << place }
 }
@@ -295,6 +318,7 @@ pub const fn signed(value: u64, width: usize) -> i64 {
 
 /// The low eight bits.
 #[must_use]
+#[inline]
 pub const fn low_byte(value: u64) -> u8 {
     (value & 0xff) as u8
 }

@@ -4,7 +4,7 @@ use crate::{
     bits::{self, BitString, Bits, Span},
     dump::Dump,
     explain::Note,
-    format::{Format, Medium, asi1, asi4, biss_c, bus, period, rs485, ssi, ssi_tree, ssi7, t485},
+    format::{Format, Medium, asi1, asi4, biss_c, bus, period, ssi, ssi_tree, ssi7, t485},
     framing::{Framer, Piece, PieceKind, Why},
     layout::{Layout, Resolved, Shape},
     profile::{Profile, ProfileError},
@@ -109,6 +109,19 @@ pub struct Decoder {
     profile: Profile,
     /// T485: one a request; BUS: one an operation; ASI4: one a number of digits; else one.
     layouts: Vec<Resolved>,
+    /// What each first byte says, for byte formats.
+    leads: Vec<Lead>,
+}
+
+/// What the first byte of a frame says.
+#[derive(Clone, Copy, Debug)]
+struct Lead {
+    /// Which layout the frame has; one that does not exist where there is none.
+    layout: u8,
+    /// Whether it is a request that may stand before its reply in a dump.
+    request: bool,
+    /// How much it speaks for a frame beyond what the checks count, in bits.
+    names: i8,
 }
 
 impl Decoder {
@@ -145,7 +158,57 @@ impl Decoder {
             Medium::Bits => layouts,
             Medium::Bytes | Medium::Text => layouts.into_iter().map(Resolved::sieved).collect(),
         };
-        Ok(Self { profile, layouts })
+        let mut decoder = Self {
+            profile,
+            layouts,
+            leads: Vec::new(),
+        };
+        if profile.format.medium() == Medium::Bytes {
+            decoder.leads = (0..=u8::MAX).map(|byte| decoder.lead(byte)).collect();
+        }
+        Ok(decoder)
+    }
+
+    fn lead(&self, byte: u8) -> Lead {
+        let index = match self.profile.format {
+            Format::T485 => t485::Request::ALL
+                .iter()
+                .position(|request| request.byte() == byte),
+            Format::Bus => {
+                let code = self.layouts[0].values(Bits::of_bytes(&[byte])).operation;
+                let mut known = bus::Operation::ALL.iter();
+                known.position(|operation| Some(operation.code()) == code)
+            }
+            _ => Some(0),
+        };
+        let names = self.weigh_lead(byte);
+        let request = match self.profile.format {
+            Format::Rs485 => byte == self.profile.command.byte(),
+            Format::T485 => index.is_some(),
+            Format::Bus => names > 0,
+            _ => false,
+        };
+        Lead {
+            layout: index.map_or(u8::MAX, |index| index as u8),
+            request,
+            names,
+        }
+    }
+
+    /// The CRC of BUS holds for a frame that is read a byte late, as the next one begins with
+    /// the same byte: what remains is its address and a parity that is likely.
+    fn weigh_lead(&self, byte: u8) -> i8 {
+        if self.profile.format != Format::Bus {
+            return 0;
+        }
+        let values = self.layouts[0].values(Bits::of_bytes(&[byte]));
+        let own = values.address.map(u32::from) == Some(self.profile.address);
+        let parity = match values.parity {
+            Some(parity) if parity.ok() => 1,
+            Some(_) => -4,
+            None => 0,
+        };
+        parity + if own { 6 } else { 0 }
     }
 
     /// The profile.
@@ -158,26 +221,13 @@ impl Decoder {
     ///
     /// The first byte tells it, except in ASI4, whose lines end where they end.
     #[must_use]
+    #[inline]
     pub fn layout(&self, bytes: &[u8]) -> Option<&Resolved> {
-        let first = *bytes.first()?;
-        let index = match self.profile.format {
-            Format::Ssi | Format::BissC | Format::Ssi7 | Format::SsiTree => return None,
-            Format::Rs485 | Format::Period | Format::Asi1 => 0,
-            Format::Asi4 => asi4::digits(bytes)? - 1,
-            Format::T485 => t485::Request::ALL
-                .iter()
-                .position(|request| request.byte() == first)?,
-            Format::Bus => self.operation_index(first)?,
-        };
-        self.layouts.get(index)
-    }
-
-    /// Which operation a BUS byte names.
-    fn operation_index(&self, byte: u8) -> Option<usize> {
-        let code = self.layouts.first()?.values(Bits::of_bytes(&[byte])).operation?;
-        bus::Operation::ALL
-            .iter()
-            .position(|operation| operation.code() == code)
+        if self.profile.format == Format::Asi4 {
+            return self.layouts.get(asi4::digits(bytes)? - 1);
+        }
+        let lead = self.leads.get(usize::from(*bytes.first()?))?;
+        self.layouts.get(usize::from(lead.layout))
     }
 
     /// The layout that describes a whole frame, for explaining and encoding.
@@ -237,15 +287,28 @@ impl Decoder {
         layout.encode(&values)
     }
 
+    /// Whether `bytes` begin with a frame of this layout, and not with a request.
+    #[inline]
+    pub(crate) fn begins(&self, layout: &Resolved, bytes: &[u8]) -> bool {
+        let Some(first) = bytes.first() else {
+            return false;
+        };
+        let lead = self.leads.get(usize::from(*first));
+        lead.is_some_and(|lead| {
+            !lead.request
+                && self
+                    .layouts
+                    .get(usize::from(lead.layout))
+                    .is_some_and(|own| core::ptr::eq(own, layout))
+        })
+    }
+
     /// Whether `byte` is a request that may stand before its reply in a dump.
     #[must_use]
+    #[inline]
     pub fn is_request(&self, byte: u8) -> bool {
-        match self.profile.format {
-            Format::Rs485 => rs485::Command::of_byte(byte) == Some(self.profile.command),
-            Format::T485 => t485::Request::of_byte(byte).is_some(),
-            Format::Bus => self.names(byte) > 0,
-            _ => false,
-        }
+        let lead = self.leads.get(usize::from(byte));
+        lead.is_some_and(|lead| lead.request)
     }
 
     /// Whether a reply begins with the byte that was asked.
@@ -255,22 +318,9 @@ impl Decoder {
     }
 
     /// How much the first byte of a frame speaks for it beyond what its checks count, in bits.
-    ///
-    /// The CRC of BUS holds for a frame that is read a byte late, as the next one begins with
-    /// the same byte: what remains is its address and a parity that is likely.
-    #[must_use]
-    pub fn names(&self, first: u8) -> i32 {
-        if self.profile.format != Format::Bus {
-            return 0;
-        }
-        let values = self.layouts[0].values(Bits::of_bytes(&[first]));
-        let own = values.address.map(u32::from) == Some(self.profile.address);
-        let parity = match values.parity {
-            Some(parity) if parity.ok() => 1,
-            Some(_) => -4,
-            None => 0,
-        };
-        parity + if own { 6 } else { 0 }
+    pub(crate) fn names(&self, first: u8) -> i32 {
+        let lead = self.leads.get(usize::from(first));
+        lead.map_or(0, |lead| lead.names.into())
     }
 
     /// Bytes of the longest frame.
@@ -370,7 +420,9 @@ impl Decoder {
                 let bytes = dump.bytes();
                 summary.bytes = bytes.len() as u64;
                 let mut framer = Framer::at_start();
-                framer.push(self, &bytes, &mut |piece| piece_out(piece, &mut summary, sink));
+                framer.push(self, &bytes, &mut |piece| {
+                    piece_out(piece, &mut summary, sink)
+                });
                 framer.finish(self, &mut |piece| piece_out(piece, &mut summary, sink));
             }
             Medium::Bits => self.lines(dump, &mut summary, sink),
@@ -420,7 +472,7 @@ fn piece_out(piece: Piece<'_>, summary: &mut Summary, sink: &mut dyn FnMut(Decod
     let bits = Bits::of_bytes(piece.bytes);
     let start = piece.start;
     match piece.kind {
-        PieceKind::Frame { layout, sure } => {
+        PieceKind::Frame { layout, sure, .. } => {
             let frame = Frame {
                 start,
                 layout: Cow::Borrowed(layout),

@@ -126,12 +126,10 @@ pub fn detect(text: &str) -> Vec<Candidate> {
     for candidate in &mut found {
         if best - candidate.score < LEAD && rivals > 0 {
             candidate.verdict = Verdict::Ambiguous;
-            candidate
-                .evidence
-                .push(match rivals {
-                    1 => "another reading fits as well".to_string(),
-                    more => format!("{more} other readings fit as well"),
-                });
+            candidate.evidence.push(match rivals {
+                1 => "another reading fits as well".to_string(),
+                more => format!("{more} other readings fit as well"),
+            });
         } else if leader.is_some_and(|leader| !reads_alike(&leader, &candidate.profile)) {
             candidate.verdict = Verdict::Unlikely;
         }
@@ -178,20 +176,28 @@ fn hypotheses() -> impl Iterator<Item = Profile> {
             ..Format::BissC.default_profile()
         })
     });
-    let plain = [Format::Bus, Format::Period].into_iter().flat_map(move |format| {
-        native().map(move |(angle_bits, turns_bits)| Profile {
-            angle_bits,
-            turns_bits,
-            ..format.default_profile()
-        })
-    });
+    let plain = [Format::Bus, Format::Period]
+        .into_iter()
+        .flat_map(move |format| {
+            native().map(move |(angle_bits, turns_bits)| Profile {
+                angle_bits,
+                turns_bits,
+                ..format.default_profile()
+            })
+        });
     let ip75 = [(Format::Asi1, 14), (Format::Asi1, 22), (Format::Asi4, 14)];
-    let ip75 = ip75.into_iter().chain([(Format::Ssi7, 14), (Format::Ssi7, 22)]);
+    let ip75 = ip75
+        .into_iter()
+        .chain([(Format::Ssi7, 14), (Format::Ssi7, 22)]);
     let ip75 = ip75.map(|(format, angle_bits)| Profile {
         angle_bits,
         ..format.default_profile()
     });
-    t485.into_iter().chain(rs485).chain(biss).chain(plain).chain(ip75)
+    t485.into_iter()
+        .chain(rs485)
+        .chain(biss)
+        .chain(plain)
+        .chain(ip75)
 }
 
 /// Tries one profile; `None` where no frame passes.

@@ -337,9 +337,7 @@ impl Emulator {
 
 /// The bits of `from` that are set in `value`, at the places that `to` gives their names.
 fn carried(value: u8, from: &[StatusBit], to: &[StatusBit]) -> u8 {
-    let set = from
-        .iter()
-        .filter(|bit| bits::bit(value.into(), bit.place));
+    let set = from.iter().filter(|bit| bits::bit(value.into(), bit.place));
     set.fold(0, |sum, bit| sum | bit_named(to, bit.name))
 }
 

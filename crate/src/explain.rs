@@ -84,11 +84,8 @@ impl Resolved {
             .filter(|named| named.place < field.width);
         named
             .filter_map(|named| {
-                let part = self.parts(field).iter().find(|part| {
-                    (part.place..part.place + part.span.len as u32).contains(&named.place)
-                })?;
                 Some(BitNote {
-                    at: part.span.end() - 1 - (named.place - part.place) as usize,
+                    at: self.bit_of(field, named.place)?,
                     name: named.name,
                     set: bits::bit(field.active_high(raw), named.place),
                     doc: named.doc,

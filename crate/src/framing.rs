@@ -27,6 +27,7 @@ use crate::{
     decode::Decoder,
     format::{Format, Link},
     layout::Resolved,
+    reading::Reading,
 };
 use alloc::vec::Vec;
 use core::fmt;
@@ -55,6 +56,21 @@ pub struct Piece<'a> {
     pub kind: PieceKind<'a>,
 }
 
+impl Piece<'_> {
+    /// Position and health, of a good frame only.
+    #[must_use]
+    pub fn reading(&self) -> Option<Reading> {
+        match self.kind {
+            PieceKind::Frame {
+                layout,
+                sure: true,
+                holds: true,
+            } => layout.position(Bits::of_bytes(self.bytes)),
+            _ => None,
+        }
+    }
+}
+
 /// What a stretch of the input is.
 #[derive(Clone, Copy, Debug)]
 pub enum PieceKind<'a> {
@@ -64,6 +80,8 @@ pub enum PieceKind<'a> {
         layout: &'a Resolved,
         /// Whether it is certain that a frame begins here.
         sure: bool,
+        /// Whether every check holds.
+        holds: bool,
     },
     /// Bytes of no frame.
     Skip(Why),
@@ -216,7 +234,11 @@ impl Framer {
                     sink(Piece {
                         start,
                         bytes,
-                        kind: PieceKind::Frame { layout, sure },
+                        kind: PieceKind::Frame {
+                            layout,
+                            sure,
+                            holds: matches!(trust, Trust::Sure | Trust::Unsure),
+                        },
                     });
                     self.held = matches!(trust, Trust::Sure | Trust::Kept);
                     if trust == Trust::Sure {
@@ -251,18 +273,31 @@ impl Framer {
         let mut at = from;
         let mut moved = None;
         while let Some(layout) = self.beyond_doubt(decoder, &self.buffer[at..]) {
-            let bytes = &self.buffer[at..at + layout.len / 8];
-            sink(Piece {
-                start: self.base + at as u64,
-                bytes,
-                kind: PieceKind::Frame { layout, sure: true },
-            });
-            if layout.has_angle {
-                moved = Some((layout, bytes));
+            let len = layout.len / 8;
+            loop {
+                let bytes = &self.buffer[at..at + len];
+                sink(Piece {
+                    start: self.base + at as u64,
+                    bytes,
+                    kind: PieceKind::Frame {
+                        layout,
+                        sure: true,
+                        holds: true,
+                    },
+                });
+                if layout.has_angle {
+                    moved = Some((layout, at));
+                }
+                at += len;
+                // What follows is mostly the same kind of frame, which is judged here.
+                let next = &self.buffer[at..];
+                if !decoder.begins(layout, next) || layout.is_sound_word(next) != Some(true) {
+                    break;
+                }
             }
-            at += bytes.len();
         }
-        if let Some((layout, bytes)) = moved {
+        if let Some((layout, last)) = moved {
+            let bytes = &self.buffer[last..last + layout.len / 8];
             self.last = Position::of(layout, bytes).or(self.last);
         }
         self.contiguous |= at > from;
@@ -270,10 +305,12 @@ impl Framer {
     }
 
     /// The layout of a frame of the held phase that needs no weighing.
+    #[inline]
     fn beyond_doubt<'d>(&self, decoder: &'d Decoder, rest: &[u8]) -> Option<&'d Resolved> {
         let layout = passing(decoder, rest)?;
         let len = layout.len / 8;
-        if !layout.is_checked || layout.is_zero_led && rest[len - 1] == 0 {
+        if !layout.is_checked || !layout.is_sound(&rest[..len]) && !is_sound(decoder, &rest[len..])
+        {
             return None;
         }
         // A request before its reply may pass as the first byte of a frame.
@@ -332,7 +369,10 @@ impl Framer {
         let mut other: Option<(usize, i32)> = None;
         for shift in 1..decoder.longest().min(rest.len()) {
             let visited = own.as_ref().is_some_and(|own| own.visits(shift));
-            if visited || passing(decoder, &rest[shift..]).is_none() || is_late(decoder, rest, shift) {
+            if visited
+                || passing(decoder, &rest[shift..]).is_none()
+                || is_late(decoder, rest, shift)
+            {
                 continue;
             }
             let score = chain(decoder, rest, shift, self.last).score;
@@ -409,18 +449,25 @@ fn skip<'d>(decoder: &Decoder, rest: &[u8], count: usize) -> Step<'d> {
 }
 
 /// The layout of a whole frame at the start of `bytes` whose checks hold.
+#[inline]
 fn passing<'d>(decoder: &'d Decoder, bytes: &[u8]) -> Option<&'d Resolved> {
     let layout = decoder.layout(bytes)?;
     let frame = bytes.get(..layout.len / 8)?;
     layout.holds(Bits::of_bytes(frame)).then_some(layout)
 }
 
+/// Whether `bytes` begin with a frame that no phase one byte early explains better. In a phase
+/// one byte late no frame does, so one vouches for the frame before it.
+#[inline]
+fn is_sound(decoder: &Decoder, bytes: &[u8]) -> bool {
+    passing(decoder, bytes).is_some_and(|layout| layout.is_sound(&bytes[..layout.len / 8]))
+}
+
 /// Whether the frame at `shift` is the one a byte before it, read one byte late: of phases
 /// that pass together the one with the zero in front is right.
 fn is_late(decoder: &Decoder, rest: &[u8], shift: usize) -> bool {
-    let ends = |layout: &Resolved| {
-        layout.is_zero_led && rest.get(shift + layout.len / 8 - 1) == Some(&0)
-    };
+    let ends =
+        |layout: &Resolved| layout.is_zero_led && rest.get(shift + layout.len / 8 - 1) == Some(&0);
     rest[shift - 1] == 0
         && decoder.layout(&rest[shift..]).is_some_and(ends)
         && passing(decoder, &rest[shift - 1..]).is_some()
@@ -428,12 +475,7 @@ fn is_late(decoder: &Decoder, rest: &[u8], shift: usize) -> bool {
 
 /// Follows a phase for a window of frames, to the first that fails after one that passes:
 /// what stands behind it may have slipped.
-fn chain<'b>(
-    decoder: &Decoder,
-    rest: &'b [u8],
-    start: usize,
-    last: Option<Position>,
-) -> Chain<'b> {
+fn chain<'b>(decoder: &Decoder, rest: &'b [u8], start: usize, last: Option<Position>) -> Chain<'b> {
     let mut chain = Chain::new(last);
     let mut at = start;
     let mut fails = 0;

@@ -11,6 +11,7 @@
 //! Decoder, encoder, explainer and checks all read a [`Resolved`] layout: a table whose widths
 //! have been worked out once, so that the frame loop only shifts.
 
+mod fast;
 mod resolved;
 
 pub use resolved::{Coding, Covered, Field, Part, Resolved, Shape};

@@ -3,10 +3,7 @@
 //! `MPP-20-30-A-24BM-R-N-A-M`: series – rotor – stator – output – resolution – interface –
 //! supply – temperature – option.
 
-use crate::{
-    format::Format,
-    profile::Profile,
-};
+use crate::{format::Format, profile::Profile};
 use alloc::{format, string::String, vec::Vec};
 use core::fmt;
 

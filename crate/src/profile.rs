@@ -5,9 +5,7 @@
 
 mod choice;
 
-pub use choice::{
-    Align, Choice, Code, Dialect, Justify, Marker, Parity, StatusActive, TurnsCode,
-};
+pub use choice::{Align, Choice, Code, Dialect, Justify, Marker, Parity, StatusActive, TurnsCode};
 
 use crate::{
     format::{Format, rs485::Command, ssi_tree},

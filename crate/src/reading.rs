@@ -248,7 +248,8 @@ impl Resolved {
     }
 
     /// The turn counter as the profile reads it.
-    fn turns(&self, raw: u64) -> i64 {
+    #[inline]
+    pub(crate) fn turns(&self, raw: u64) -> i64 {
         match self.shape.profile.turns_code {
             TurnsCode::Unsigned => i64::try_from(raw).unwrap_or(i64::MAX),
             TurnsCode::Signed => bits::signed(raw, self.shape.profile.turns_bits as usize),
@@ -268,9 +269,12 @@ impl Resolved {
 
     /// Whether every check of the frame holds.
     #[must_use]
+    #[inline]
     pub fn holds(&self, bits: Bits<'_>) -> bool {
-        self.passes_sieve(bits)
-            .unwrap_or_else(|| self.fields().all(|field| self.fault(field, bits).is_none()))
+        match self.passes_sieve(bits) {
+            Some(holds) => holds,
+            None => self.fields().all(|field| self.fault(field, bits).is_none()),
+        }
     }
 
     /// What is wrong with one field.
@@ -333,10 +337,8 @@ impl Resolved {
     #[must_use]
     pub fn checked(&self, field: &Field, bits: Bits<'_>) -> Option<Checked> {
         let received = self.read(field, bits);
-        self.expected(field, bits).map(|expected| Checked {
-            expected,
-            received,
-        })
+        self.expected(field, bits)
+            .map(|expected| Checked { expected, received })
     }
 
     /// Position and health.
@@ -354,7 +356,15 @@ impl Resolved {
     }
 
     /// Position and health of a frame whose checks hold.
-    fn position(&self, bits: Bits<'_>) -> Option<Reading> {
+    #[inline]
+    pub(crate) fn position(&self, bits: Bits<'_>) -> Option<Reading> {
+        match self.quick_position(bits) {
+            Some(reading) => Some(reading),
+            None => self.slow_position(bits),
+        }
+    }
+
+    fn slow_position(&self, bits: Bits<'_>) -> Option<Reading> {
         let mut angle = None;
         let mut reading = Reading {
             angle: 0,

@@ -83,9 +83,8 @@ pub fn framed(decoder: &Decoder, cuts: &[&[u8]]) -> Vec<Stretch> {
     let mut framer = Framer::at_start();
     let mut sink = |piece: encoderscope::framing::Piece<'_>| {
         out.push(match piece.kind {
-            PieceKind::Frame { layout, sure } => {
-                let bits = encoderscope::bits::Bits::of_bytes(piece.bytes);
-                Stretch::Frame(piece.start, piece.bytes.into(), sure && layout.holds(bits))
+            PieceKind::Frame { sure, holds, .. } => {
+                Stretch::Frame(piece.start, piece.bytes.into(), sure && holds)
             }
             PieceKind::Skip(why) => Stretch::Skip(piece.start, piece.bytes.into(), why.to_string()),
         });

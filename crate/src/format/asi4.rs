@@ -61,6 +61,9 @@ layout! {
 /// How many digits the line at the start of `bytes` has; nothing where no line is.
 #[must_use]
 pub fn digits(bytes: &[u8]) -> Option<usize> {
-    let end = bytes.iter().take(DIGITS + 1).position(|byte| *byte == b'\r')?;
+    let end = bytes
+        .iter()
+        .take(DIGITS + 1)
+        .position(|byte| *byte == b'\r')?;
     (end > 0 && bytes[..end].iter().all(u8::is_ascii_digit)).then_some(end)
 }

@@ -84,11 +84,7 @@ layout! {
 /// # Errors
 ///
 /// The line is too short; says how many bits it would need.
-pub fn shapes(
-    table: &'static Layout,
-    profile: &Profile,
-    bits: Bits<'_>,
-) -> Result<Shapes, u32> {
+pub fn shapes(table: &'static Layout, profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
     let plain = Shape::of(*profile);
     let word = Resolved::new(table, plain).len as u32;
     let spare = (bits.len() as u32).checked_sub(word).ok_or(word)?;

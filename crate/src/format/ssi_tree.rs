@@ -106,7 +106,11 @@ const fn number(p: &Profile) -> u32 {
 const fn left(p: &Profile, room: u32) -> u32 {
     let left = LEFT.saturating_sub(p.turns_bits);
     // A single-turn word has no left half unless it is as long as one that has.
-    if p.turns_bits > 0 || room >= left { left } else { 0 }
+    if p.turns_bits > 0 || room >= left {
+        left
+    } else {
+        0
+    }
 }
 
 /// Columns in front of the number.

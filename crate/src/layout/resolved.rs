@@ -1,6 +1,6 @@
 //! Layouts whose widths have been worked out for one shape of frame.
 
-use super::{Check, Cover, Layout, Piece, Role, Row, Weight};
+use super::{Check, Cover, Layout, Piece, Role, Row, Weight, fast::Fast};
 use crate::{
     bits::{self, BitString, Bits, Span},
     check::Checksum,
@@ -95,15 +95,6 @@ pub enum Coding {
     Decimal,
 }
 
-/// What one byte of a frame must be, and what it adds to the checks of the frame.
-#[derive(Clone, Debug)]
-struct Sieve {
-    /// Fixed bits.
-    mask: u8,
-    value: u8,
-    syndrome: [u32; 256],
-}
-
 /// A layout whose widths have been worked out for a shape.
 #[derive(Clone, Debug)]
 pub struct Resolved {
@@ -122,10 +113,11 @@ pub struct Resolved {
     /// Whether a zero byte in front of a frame leaves its check as it is, so that a frame read a
     /// byte late passes whenever it begins with 0.
     pub is_zero_led: bool,
-    fields: Vec<Field>,
+    pub(super) fields: Vec<Field>,
     parts: Vec<Part>,
-    coded: Option<(Coding, Span)>,
-    sieve: Vec<Sieve>,
+    pub(super) coded: Option<(Coding, Span)>,
+    /// What judges and reads many frames quickly.
+    pub(super) fast: Option<Fast>,
 }
 
 impl Resolved {
@@ -165,90 +157,14 @@ impl Resolved {
             redundancy: fields.iter().map(redundant).sum(),
             has_angle: fields.iter().any(|field| field.row.role == Role::Angle),
             is_checked: fields.iter().any(Field::is_binding),
-            is_zero_led: fields.iter().any(|field| {
-                matches!(field.cover, Some((Checksum::Crc8x97, Covered::Run(_))))
-            }),
+            is_zero_led: fields
+                .iter()
+                .any(|field| matches!(field.cover, Some((Checksum::Crc8x97, Covered::Run(_))))),
             fields,
             parts,
             coded: plan.coded,
-            sieve: Vec::new(),
+            fast: None,
         }
-    }
-
-    /// The same layout, prepared to judge many frames quickly.
-    ///
-    /// Every check starts from a constant and adds up, bit by bit, so that what is wrong with a
-    /// frame is the sum of what is wrong with its bytes: a table of 256 entries for each of them
-    /// replaces the checks. The tables are computed from the checks themselves.
-    #[must_use]
-    pub fn sieved(mut self) -> Self {
-        let text = matches!(self.coded, Some((Coding::Decimal, _)));
-        if text || !self.len.is_multiple_of(8) || self.fields().any(|field| field.width > 64) {
-            return self;
-        }
-        let mut mask = BitString::zeros(self.len);
-        let mut value = BitString::zeros(self.len);
-        for field in self.fields() {
-            let all = bits::mask(field.width as usize);
-            let (fixed, to) = match field.row.constant {
-                Some(constant) => (all, constant),
-                None => (field.row.zeros, 0),
-            };
-            self.write(field, &mut mask, fixed);
-            self.write(field, &mut value, to & fixed);
-        }
-        let (mask, value) = (mask.into_bytes(), value.into_bytes());
-        let none = self.syndrome(&BitString::zeros(self.len));
-        self.sieve = (0..self.len / 8)
-            .map(|byte| {
-                let mut syndrome = [if byte == 0 { none } else { 0 }; 256];
-                for place in 0..8 {
-                    let mut one = BitString::zeros(self.len);
-                    one.flip(byte * 8 + 7 - place as usize);
-                    let adds = self.syndrome(&one) ^ none;
-                    for (code, sum) in (0u64..).zip(&mut syndrome) {
-                        if bits::bit(code, place) {
-                            *sum ^= adds;
-                        }
-                    }
-                }
-                Sieve {
-                    mask: mask[byte],
-                    value: value[byte],
-                    syndrome,
-                }
-            })
-            .collect();
-        self
-    }
-
-    /// What the binding checks of a frame give against what they should, side by side.
-    fn syndrome(&self, frame: &BitString) -> u32 {
-        let mut place = 0;
-        let mut sum = 0;
-        for field in self.fields().filter(|field| field.is_binding()) {
-            let bits = frame.as_bits();
-            if let Some(expected) = self.expected(field, bits) {
-                sum |= bits::placed(expected ^ self.read(field, bits), place);
-                place += field.width;
-            }
-        }
-        sum as u32
-    }
-
-    /// Whether every check holds, for a frame of exactly this length; `None` where the layout
-    /// has not been sieved.
-    pub(crate) fn passes_sieve(&self, bits: Bits<'_>) -> Option<bool> {
-        if self.sieve.is_empty() || bits.len() != self.len {
-            return None;
-        }
-        let mut wrong = 0;
-        let mut sum = 0;
-        for (byte, sieve) in bits.bytes().iter().zip(&self.sieve) {
-            wrong |= byte & sieve.mask ^ sieve.value;
-            sum ^= sieve.syndrome[*byte as usize];
-        }
-        Some(wrong == 0 && sum == 0)
     }
 
     /// The fields, in transmission order; each has bits.
@@ -272,6 +188,16 @@ impl Resolved {
         })
     }
 
+    /// Where in the frame the bit of a field's number at `place` stands.
+    #[must_use]
+    pub fn bit_of(&self, field: &Field, place: u32) -> Option<usize> {
+        let part = self
+            .parts(field)
+            .iter()
+            .find(|part| (part.place..part.place + part.span.len as u32).contains(&place))?;
+        Some(part.span.end() - 1 - (place - part.place) as usize)
+    }
+
     /// How the bits of a field stand for its number, where they are not the number itself, and
     /// the run of bits that is coded together.
     #[must_use]
@@ -289,9 +215,7 @@ impl Resolved {
         {
             let below = (word.end() - part.span.end()) as u32;
             return match coding {
-                Coding::Gray => {
-                    bits::slice(bits::from_gray(bits.read(word)), below, part.span.len)
-                }
+                Coding::Gray => bits::slice(bits::from_gray(bits.read(word)), below, part.span.len),
                 Coding::Decimal => bits.decimal(word).unwrap_or(0),
             };
         }
@@ -405,9 +329,7 @@ impl Plan {
         shape: &Shape,
         start: usize,
     ) -> usize {
-        let end = rows
-            .iter()
-            .fold(start, |at, row| self.row(row, shape, at));
+        let end = rows.iter().fold(start, |at, row| self.row(row, shape, at));
         if let Some(coding) = coding {
             self.coded = Some((coding, Span::new(start, end - start)));
         }

@@ -256,7 +256,10 @@ fn a_late_reply_is_not_taken_for_the_next_one() {
                     latency,
                     ..
                 } => {
-                    assert!(latency.is_some_and(|latency| latency >= delay), "{latency:?}");
+                    assert!(
+                        latency.is_some_and(|latency| latency >= delay),
+                        "{latency:?}"
+                    );
                     sure += 1;
                 }
                 _ => {}

@@ -1,0 +1,283 @@
+//! Layouts prepared to judge and read many frames quickly, out of the same tables.
+//!
+//! Every check starts from a constant and adds up, bit by bit, so that what is wrong with a
+//! frame is the sum of what is wrong with its bytes: a table of 256 entries for each of them
+//! replaces the checks. The tables are computed from the checks themselves. Frames of up to
+//! eight bytes are judged and read as one word, up to sixteen as two.
+
+use super::{Active, Field, Resolved, Role};
+use crate::{
+    bits::{self, BitString, Bits, Span},
+    reading::Reading,
+};
+use alloc::{boxed::Box, vec::Vec};
+
+/// Bytes of a word.
+const WORD: usize = 8;
+
+/// What a word of a frame must be, and what its bytes add to the checks of the frame.
+#[derive(Clone, Debug)]
+struct Sieve {
+    /// Fixed bits.
+    mask: u64,
+    value: u64,
+    /// For each byte of the word, the last one first.
+    syndromes: Box<[[u16; 256]; WORD]>,
+}
+
+/// The tables of a layout.
+#[derive(Clone, Debug)]
+pub(super) struct Fast {
+    /// What the checks of an all-zero frame come to.
+    none: u16,
+    /// The last eight bytes, and what is before them.
+    last: Sieve,
+    before: Option<Sieve>,
+    angle: Number,
+    turns: Number,
+    status: Number,
+    error: Flag,
+    warning: Flag,
+}
+
+/// Where a part of a number stands in the frame as one word, and what it is worth.
+#[derive(Clone, Copy, Debug, Default)]
+struct Take {
+    below: u32,
+    mask: u64,
+    place: u32,
+}
+
+/// A number; most have one part.
+#[derive(Clone, Debug, Default)]
+struct Number {
+    exists: bool,
+    first: Take,
+    more: Vec<Take>,
+}
+
+/// One bit, and the level that asserts it; nothing asserts a bit that does not exist.
+#[derive(Clone, Copy, Debug, Default)]
+struct Flag {
+    at: Take,
+    asserted: u64,
+}
+
+impl Resolved {
+    /// The same layout, prepared to judge and read many frames quickly; text and frames that are
+    /// not a few whole bytes stay as they are.
+    #[must_use]
+    pub fn sieved(mut self) -> Self {
+        let plain = self.fields().all(|field| self.coding(field).is_none());
+        let checks: u32 = self
+            .fields()
+            .filter(|field| Field::is_binding(field))
+            .map(|field| field.width)
+            .sum();
+        if !plain || !self.len.is_multiple_of(8) || self.len > 16 * WORD || checks > u16::BITS {
+            return self;
+        }
+        let none = self.syndrome(&BitString::zeros(self.len));
+        let bytes = self.len / 8;
+        let cut = bytes.saturating_sub(WORD);
+        self.fast = Some(Fast {
+            none,
+            last: self.sieve(cut..bytes, none),
+            before: (cut > 0).then(|| self.sieve(0..cut, none)),
+            angle: self.number(Role::Angle),
+            turns: self.number(Role::Turns),
+            status: self.number(Role::Status),
+            error: self
+                .flag(Role::Error, Active::High)
+                .or_else(|| self.flag(Role::Valid, Active::Low))
+                .or_else(|| self.named_error())
+                .unwrap_or_default(),
+            warning: self.flag(Role::Warning, Active::High).unwrap_or_default(),
+        });
+        self
+    }
+
+    fn take(&self, span: Span, place: u32) -> Take {
+        Take {
+            below: (self.len - span.end()) as u32,
+            mask: bits::mask(span.len),
+            place,
+        }
+    }
+
+    fn number(&self, role: Role) -> Number {
+        let field = self.fields().find(|field| field.row.role == role);
+        let parts = field.map_or(&[][..], |field| self.parts(field));
+        let mut takes = parts.iter().map(|part| self.take(part.span, part.place));
+        Number {
+            exists: field.is_some(),
+            first: takes.next().unwrap_or_default(),
+            more: takes.collect(),
+        }
+    }
+
+    /// The bit of a flag, which says the same as asked for, or the opposite.
+    fn flag(&self, role: Role, says: Active) -> Option<Flag> {
+        let field = self.fields().find(|field| field.row.role == role)?;
+        let part = self.parts(field).first()?;
+        Some(Flag {
+            at: self.take(part.span, 0),
+            asserted: u64::from(field.row.active == says),
+        })
+    }
+
+    /// The error flag where it is a named bit of the status.
+    fn named_error(&self) -> Option<Flag> {
+        let field = self.fields().find(|field| field.row.role == Role::Status)?;
+        let mut named = field.row.bits.iter();
+        let bit = named.find(|bit| bit.role == Some(Role::Error))?;
+        let at = self.bit_of(field, bit.place)?;
+        Some(Flag {
+            at: self.take(Span::new(at, 1), 0),
+            asserted: 1,
+        })
+    }
+
+    fn sieve(&self, bytes: core::ops::Range<usize>, none: u16) -> Sieve {
+        let mut mask = BitString::zeros(self.len);
+        let mut value = BitString::zeros(self.len);
+        for field in self.fields() {
+            let all = bits::mask(field.width as usize);
+            let (fixed, to) = match field.row.constant {
+                Some(constant) => (all, constant),
+                None => (field.row.zeros, 0),
+            };
+            self.write(field, &mut mask, fixed);
+            self.write(field, &mut value, to & fixed);
+        }
+        let word = Span::new(bytes.start * 8, bytes.len() * 8);
+        let mut syndromes = Box::new([[0; 256]; WORD]);
+        for (byte, table) in bytes.rev().zip(syndromes.iter_mut()) {
+            for place in 0..8 {
+                let mut one = BitString::zeros(self.len);
+                one.flip(byte * 8 + 7 - place as usize);
+                let adds = self.syndrome(&one) ^ none;
+                for (code, sum) in (0u64..).zip(table.iter_mut()) {
+                    if bits::bit(code, place) {
+                        *sum ^= adds;
+                    }
+                }
+            }
+        }
+        Sieve {
+            mask: mask.as_bits().read(word),
+            value: value.as_bits().read(word),
+            syndromes,
+        }
+    }
+
+    /// What the binding checks of a frame give against what they should, side by side.
+    fn syndrome(&self, frame: &BitString) -> u16 {
+        let mut place = 0;
+        let mut sum = 0;
+        for field in self.fields().filter(|field| Field::is_binding(field)) {
+            let bits = frame.as_bits();
+            if let Some(expected) = self.expected(field, bits) {
+                sum |= bits::placed(expected ^ self.read(field, bits), place);
+                place += field.width;
+            }
+        }
+        sum as u16
+    }
+
+    /// Whether every check holds, for a frame of exactly this length; `None` where the layout
+    /// has not been sieved.
+    #[inline(always)]
+    pub(crate) fn passes_sieve(&self, bits: Bits<'_>) -> Option<bool> {
+        let fast = self.fast.as_ref()?;
+        if bits.len() != self.len {
+            return None;
+        }
+        let bytes = bits.bytes();
+        let (before, last) = bytes.split_at(bytes.len().saturating_sub(WORD));
+        let mut wrong = 0;
+        let mut sum = fast.none;
+        fast.last.judge(bits::word(last), &mut wrong, &mut sum);
+        if let Some(sieve) = &fast.before {
+            sieve.judge(bits::word(before), &mut wrong, &mut sum);
+        }
+        Some(wrong == 0 && sum == 0)
+    }
+
+    /// Whether a frame that holds does not end as one that is read a byte late: with a zero.
+    #[inline]
+    pub(crate) fn is_sound(&self, frame: &[u8]) -> bool {
+        !(self.is_zero_led && frame.last() == Some(&0))
+    }
+
+    /// The same of the frame at the start of `bytes`; `None` where it does not hold, or is not
+    /// one that is judged as one word out of eight bytes.
+    #[inline(always)]
+    pub(crate) fn is_sound_word(&self, bytes: &[u8]) -> Option<bool> {
+        let fast = self.fast.as_ref().filter(|_| self.len <= WORD * 8)?;
+        let chunk = bytes.first_chunk::<WORD>()?;
+        let word = bits::above(u64::from_be_bytes(*chunk), (WORD * 8 - self.len) as u32);
+        let mut wrong = 0;
+        let mut sum = fast.none;
+        fast.last.judge(word, &mut wrong, &mut sum);
+        let holds = wrong == 0 && sum == 0;
+        holds.then(|| !(self.is_zero_led && bits::low_byte(word) == 0))
+    }
+
+    /// Position and health of a frame whose checks hold; `None` where the layout has not been
+    /// sieved or holds no angle.
+    #[inline]
+    pub(crate) fn quick_position(&self, bits: Bits<'_>) -> Option<Reading> {
+        let fast = self.fast.as_ref().filter(|_| bits.len() == self.len)?;
+        let bytes = bits.bytes();
+        let (before, last) = bytes.split_at(bytes.len().saturating_sub(WORD));
+        let last = bits::word(last);
+        if before.is_empty() {
+            fast.position(self, |take| bits::above(last, take.below) & take.mask)
+        } else {
+            let before = bits::word(before);
+            // Parts of longer frames stand in one byte each, so none lies across the words.
+            fast.position(self, |take| match take.below.checked_sub(u64::BITS) {
+                Some(below) => bits::above(before, below) & take.mask,
+                None => bits::above(last, take.below) & take.mask,
+            })
+        }
+    }
+}
+
+impl Sieve {
+    #[inline]
+    fn judge(&self, word: u64, wrong: &mut u64, sum: &mut u16) {
+        *wrong |= word & self.mask ^ self.value;
+        for (byte, table) in word.to_le_bytes().iter().zip(self.syndromes.iter()) {
+            *sum ^= table[usize::from(*byte)];
+        }
+    }
+}
+
+impl Fast {
+    #[inline]
+    fn position(&self, layout: &Resolved, read: impl Fn(&Take) -> u64) -> Option<Reading> {
+        if !self.angle.exists {
+            return None;
+        }
+        let number = |number: &Number| {
+            let first = bits::placed(read(&number.first), number.first.place);
+            number.more.iter().fold(first, |sum, take| {
+                sum | bits::placed(read(take), take.place)
+            })
+        };
+        let is = |flag: &Flag| flag.at.mask != 0 && read(&flag.at) == flag.asserted;
+        Some(Reading {
+            angle: number(&self.angle),
+            angle_bits: layout.shape.profile.angle_bits,
+            turns: self.turns.exists.then(|| layout.turns(number(&self.turns))),
+            error: is(&self.error),
+            warning: is(&self.warning),
+            status: self
+                .status
+                .exists
+                .then(|| bits::low_byte(number(&self.status))),
+        })
+    }
+}

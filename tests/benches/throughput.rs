@@ -1,0 +1,112 @@
+//! How fast the core reads a stream: raw bytes a second, framing, checks and readings included.
+//!
+//! `cargo bench -p encoderscope-tests`; the limit beside it only adds the bytes up.
+#![allow(missing_docs)]
+
+#[cfg(target_arch = "wasm32")]
+fn main() {}
+
+#[cfg(not(target_arch = "wasm32"))]
+fn main() {
+    native::run();
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+mod native {
+    use encoderscope::{decode::Decoder, framing::Framer, reading::Values};
+    use encoderscope_tests::decoder;
+    use std::{hint::black_box, time::Instant};
+
+    const BYTES: usize = 16_000_000;
+    /// What a serial port delivers at once.
+    const CHUNK: usize = 65_536;
+    const ROUNDS: usize = 20;
+
+    pub(crate) fn run() {
+        println!("{:<28} {:>10} {:>16}", "", "MB/s", "of adding up");
+        for parameters in [
+            "format=period",
+            "format=rs485 command=1 turns-bits=0",
+            "format=t485",
+            "format=bus",
+            "format=asi1",
+            "format=asi4",
+        ] {
+            // An argument chooses the lines that hold it.
+            let wanted = std::env::args()
+                .skip(1)
+                .filter(|word| !word.starts_with('-'));
+            if !wanted.into_iter().all(|word| parameters.contains(&word)) {
+                continue;
+            }
+            let decoder = decoder(parameters);
+            let bytes = stream(&decoder);
+            let sum = best(|| {
+                u64::from(
+                    black_box(&bytes)
+                        .iter()
+                        .fold(0u32, |sum, byte| sum.wrapping_add((*byte).into())),
+                )
+            });
+            let read = best(|| read(&decoder, black_box(&bytes)));
+            let rate = |seconds: f64| bytes.len() as f64 / seconds / 1e6;
+            println!("{parameters:<28} {:>10.0} {:>16.3}", rate(read), sum / read);
+        }
+    }
+
+    /// A shaft that turns through many turns.
+    fn stream(decoder: &Decoder) -> Vec<u8> {
+        let profile = decoder.profile();
+        let mut bytes = Vec::with_capacity(BYTES + 16);
+        let mut index = 0u64;
+        while bytes.len() < BYTES {
+            let position = 300.3 + index as f64 * 0.000_37;
+            let angle = position.fract() * 2f64.powi(profile.angle_bits as i32);
+            let values = Values {
+                turns: Some(position as i64 % 65_536),
+                angle: Some(angle as u64),
+                ..Values::default()
+            };
+            bytes.extend(decoder.encode(&values).into_bytes());
+            index += 1;
+        }
+        bytes
+    }
+
+    /// Reads everything; returns something that depends on all of it.
+    fn read(decoder: &Decoder, bytes: &[u8]) -> u64 {
+        let mut framer = Framer::at_start();
+        let mut sum = 0u64;
+        let mut frames = 0u64;
+        let mut sink = |piece: encoderscope::framing::Piece<'_>| {
+            if let Some(reading) = piece.reading() {
+                frames += 1;
+                sum = sum
+                    .wrapping_add(reading.angle)
+                    .wrapping_add(reading.turns.unwrap_or(0) as u64)
+                    .wrapping_add(reading.status.unwrap_or(0).into())
+                    .wrapping_add(u64::from(reading.error) + u64::from(reading.warning));
+            }
+        };
+        for chunk in bytes.chunks(CHUNK) {
+            framer.push(decoder, chunk, &mut sink);
+        }
+        framer.finish(decoder, &mut sink);
+        let least = bytes.len() / decoder.longest();
+        assert!(
+            frames as usize * 100 > least * 99,
+            "{frames} of {least} frames"
+        );
+        sum
+    }
+
+    /// Seconds of the fastest of a few rounds.
+    fn best(run: impl Fn() -> u64) -> f64 {
+        let rounds = (0..ROUNDS).map(|_| {
+            let start = Instant::now();
+            black_box(run());
+            start.elapsed().as_secs_f64()
+        });
+        rounds.fold(f64::INFINITY, f64::min)
+    }
+}
