@@ -130,6 +130,12 @@ impl Emulator {
         self.talk.address
     }
 
+    /// The byte that a cell of the EEPROM holds; `None` beyond its 128 cells.
+    #[must_use]
+    pub fn memory(&self, address: u8) -> Option<u8> {
+        self.talk.memory.get(usize::from(address)).copied()
+    }
+
     /// When the next bytes are due.
     #[must_use]
     pub fn deadline(&self) -> Option<Micros> {
@@ -276,8 +282,9 @@ impl Emulator {
         if self.counter != Counter::Battery {
             return (0, false, false);
         }
-        let low = bit_named(STATUS, "battery low");
-        let lost = bit_named(STATUS, "battery disconnected");
+        let bit = |name| bits::low_byte(StatusBit::named(STATUS, name));
+        let low = bit("battery low");
+        let lost = bit("battery disconnected");
         let (bits, error, warning) = match self.battery {
             Battery::Good => (0, false, false),
             Battery::Low => (low, false, true),
@@ -338,11 +345,5 @@ impl Emulator {
 /// The bits of `from` that are set in `value`, at the places that `to` gives their names.
 fn carried(value: u8, from: &[StatusBit], to: &[StatusBit]) -> u8 {
     let set = from.iter().filter(|bit| bits::bit(value.into(), bit.place));
-    set.fold(0, |sum, bit| sum | bit_named(to, bit.name))
-}
-
-/// The bit of a name; nothing where the table has no such bit.
-fn bit_named(table: &[StatusBit], name: &str) -> u8 {
-    let found = table.iter().find(|bit| bit.name == name);
-    found.map_or(0, |bit| bits::low_byte(bits::placed(1, bit.place)))
+    bits::low_byte(set.fold(0, |sum, bit| sum | StatusBit::named(to, bit.name)))
 }

@@ -16,7 +16,7 @@ mod resolved;
 
 pub use resolved::{Coding, Covered, Field, Part, Resolved, Shape};
 
-use crate::check::Checksum;
+use crate::{bits, check::Checksum};
 
 /// What a field means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,6 +141,15 @@ pub struct StatusBit {
     pub doc: &'static str,
     /// Whether this bit is the format's error or warning flag.
     pub role: Option<Role>,
+}
+
+impl StatusBit {
+    /// The bit of a name in its place; 0 where the table has no such bit.
+    #[must_use]
+    pub fn named(table: &[Self], name: &str) -> u64 {
+        let found = table.iter().find(|bit| bit.name == name);
+        found.map_or(0, |bit| bits::placed(1, bit.place))
+    }
 }
 
 /// Which bits a checksum covers.

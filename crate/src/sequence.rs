@@ -5,7 +5,8 @@
 //! each reply the line must be quiet before the next command, so that a late, a doubled or a
 //! foreign reply is seen. Anything unexpected stops it at once, with what is known of the
 //! encoder: it acts on the last command alone, so until that was sent nothing has changed, and
-//! when its reply is missing nobody knows.
+//! when its reply is missing nobody knows. Where the encoder does not say what it has counted,
+//! what is read before and afterwards must show the change.
 //!
 //! | script | commands | acts on | source |
 //! |---|---|---|---|
@@ -109,6 +110,23 @@ pub struct Script {
     pub settles: Micros,
     /// A command that reads, sent last: it shows what the encoder holds now.
     pub after: Step,
+    /// What shows that the encoder has acted.
+    pub proof: Proof,
+}
+
+/// What shows that an encoder has acted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// It has counted to the end.
+    Count,
+    /// The angle read last is 0, and was not before.
+    Angle,
+    /// The turns read last are 0, and were not before.
+    Turns,
+    /// No error is read any more.
+    Errors,
+    /// The byte read last is the one that was written.
+    Memory,
 }
 
 const fn step(send: Send, expect: Expect) -> Step {
@@ -125,6 +143,7 @@ static RS485_ZERO: Script = Script {
     rounds: 10,
     settles: 40_000,
     after: step(Send::Rs485(Command::Position), Expect::Reply),
+    proof: Proof::Count,
 };
 
 static T485_RESET_ANGLE: Script = Script {
@@ -134,12 +153,15 @@ static T485_RESET_ANGLE: Script = Script {
     rounds: 10,
     settles: 0,
     after: step(Send::T485(Request::Angle), Expect::Reply),
+    proof: Proof::Angle,
 };
 
 static T485_RESET_TURNS: Script = Script {
     title: "reset turns",
+    before: step(Send::T485(Request::Turns), Expect::Reply),
     round: &[step(Send::T485(Request::ResetTurns), Expect::Reply)],
     after: step(Send::T485(Request::Turns), Expect::Reply),
+    proof: Proof::Turns,
     ..T485_RESET_ANGLE
 };
 
@@ -147,6 +169,7 @@ static T485_RESET_ERRORS: Script = Script {
     title: "reset errors",
     round: &[step(Send::T485(Request::ResetErrors), Expect::Reply)],
     after: step(Send::T485(Request::All), Expect::Reply),
+    proof: Proof::Errors,
     ..T485_RESET_ANGLE
 };
 
@@ -158,6 +181,7 @@ static T485_MEMORY: Script = Script {
     rounds: 1,
     settles: 18_000,
     after: step(Send::T485(Request::MemoryRead), Expect::Reply),
+    proof: Proof::Memory,
 };
 
 static BUS_ZERO: Script = Script {
@@ -170,6 +194,7 @@ static BUS_ZERO: Script = Script {
     rounds: 10,
     settles: 50_000,
     after: step(Send::Bus(Operation::Get), Expect::Reply),
+    proof: Proof::Count,
 };
 
 /// Each address is twice the count before it, so that three of them pass unanswered while the
@@ -192,19 +217,25 @@ static BUS_ADDRESS: Script = Script {
     rounds: 1,
     settles: 50_000,
     after: step(Send::GetNew, Expect::Reply),
+    proof: Proof::Count,
 };
 
 impl Change {
-    /// The script that makes this change with a format; `None` where the format has none.
+    /// The script that makes this change; `None` where the encoders of a profile have none.
     #[must_use]
-    pub fn script(self, format: Format) -> Option<&'static Script> {
-        match (self, format) {
+    pub fn script(self, profile: &Profile) -> Option<&'static Script> {
+        let known = |request: Request| request.is_known_to(profile.dialect);
+        match (self, profile.format) {
             (Self::Zero, Format::Rs485) => Some(&RS485_ZERO),
             (Self::Zero, Format::Bus) => Some(&BUS_ZERO),
             (Self::ResetAngle, Format::T485) => Some(&T485_RESET_ANGLE),
             (Self::ResetTurns, Format::T485) => Some(&T485_RESET_TURNS),
-            (Self::ResetErrors, Format::T485) => Some(&T485_RESET_ERRORS),
-            (Self::Memory { .. }, Format::T485) => Some(&T485_MEMORY),
+            (Self::ResetErrors, Format::T485) if known(Request::ResetErrors) => {
+                Some(&T485_RESET_ERRORS)
+            }
+            (Self::Memory { .. }, Format::T485) if known(Request::MemoryWrite) => {
+                Some(&T485_MEMORY)
+            }
             (Self::Address(_), Format::Bus) => Some(&BUS_ADDRESS),
             _ => None,
         }
@@ -242,7 +273,7 @@ pub enum Holds {
     New,
     /// Nothing has changed.
     Old,
-    /// The last command may have acted or not: read the encoder to see.
+    /// The encoder may have acted or not: read it to see.
     Unknown,
 }
 
@@ -251,9 +282,7 @@ impl fmt::Display for Holds {
         f.write_str(match self {
             Self::New => "the change was made",
             Self::Old => "nothing has changed in the encoder",
-            Self::Unknown => {
-                "the last command may have acted or not: read the encoder, then decide"
-            }
+            Self::Unknown => "the encoder may have acted or not: read it, then decide",
         })
     }
 }
@@ -274,6 +303,8 @@ pub enum Stop {
         /// What it counted.
         received: u8,
     },
+    /// The encoder does not know the command.
+    NotUnderstood,
     /// Somebody asked to stop.
     Asked,
 }
@@ -288,6 +319,7 @@ impl fmt::Display for Stop {
                 f,
                 "the encoder counts {received} instead of {expected}: another command came between"
             ),
+            Self::NotUnderstood => f.write_str("the encoder does not know this command"),
             Self::Asked => f.write_str("stopped"),
         }
     }

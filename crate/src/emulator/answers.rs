@@ -1,6 +1,6 @@
 //! What an encoder answers to a byte, and what it counts while it does.
 
-use super::{Emulator, bit_named, shaft::split};
+use super::{Emulator, shaft::split};
 use crate::{
     bits::{self, Bits, Span},
     format::{
@@ -145,7 +145,7 @@ impl Emulator {
         let layout = self.resolved(known.unwrap_or(Request::Angle).reply());
         let mut values = self.values(now);
         if known.is_none() {
-            values.status = Some(bit_named(t485::STATUS_FIELD, "communication error"));
+            values.status = Some(bits::low_byte(t485::not_understood()));
         }
         let mut out = layout.encode(&values);
         out.write(Span::new(0, 8), u64::from(byte));

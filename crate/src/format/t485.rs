@@ -178,6 +178,12 @@ pub static STATUS_FIELD: &[StatusBit] = &[
     },
 ];
 
+/// The bit of the status field that says that a request was not understood.
+#[must_use]
+pub fn not_understood() -> u64 {
+    StatusBit::named(STATUS_FIELD, "communication error")
+}
+
 /// The alarm byte of MPP and PT (manual: E).
 pub static ALARM: &[StatusBit] = &[
     StatusBit {

@@ -1,13 +1,12 @@
 //! The interpreter of scripts.
 
-use super::{Change, Expect, Holds, Script, Step, Stop};
+use super::{Change, Expect, Holds, Proof, Script, Send, Step, Stop};
 use crate::{
-    bits::Bits,
+    bits::{self, Bits},
     decode::Decoder,
-    format::rs485::Command,
+    format::{Format, bus::Operation, t485},
     layout::{Resolved, Shape},
     reading::Values,
-    sequence::Send,
     session::{Micros, QUIET, TIMEOUT},
 };
 use alloc::{collections::VecDeque, vec::Vec};
@@ -66,6 +65,10 @@ pub struct Runner {
     state: State,
     sent: Vec<u8>,
     received: Vec<u8>,
+    /// Whether the adapter returns what is sent, once the first reply has shown it.
+    echo: Option<bool>,
+    /// What was read before the first command, and last.
+    first: Option<Values>,
     last: Option<Values>,
     output: VecDeque<Event>,
 }
@@ -80,7 +83,7 @@ impl Runner {
             Change::Memory { address, .. } => address < 128,
             _ => true,
         };
-        let script = change.script(decoder.profile().format).filter(|_| fits)?;
+        let script = change.script(decoder.profile()).filter(|_| fits)?;
         Some(Self {
             decoder: decoder.clone(),
             change,
@@ -89,6 +92,8 @@ impl Runner {
             state: State::Ready(now + QUIET),
             sent: Vec::new(),
             received: Vec::new(),
+            echo: None,
+            first: None,
             last: None,
             output: VecDeque::new(),
         })
@@ -185,6 +190,7 @@ impl Runner {
         match self.answer() {
             Ok(values) => {
                 self.last = values.or(self.last);
+                self.first = self.first.or(values);
                 self.at += 1;
                 let total = self.total();
                 self.output.push_back(Event::Progress {
@@ -204,15 +210,14 @@ impl Runner {
     }
 
     /// What the line has answered to the present step.
-    fn answer(&self) -> Result<Option<Values>, Stop> {
+    fn answer(&mut self) -> Result<Option<Values>, Stop> {
         let (step, round) = self.step();
         // A two-wire adapter returns the command in front of the reply.
-        let behind = self
-            .received
-            .strip_prefix(self.sent.as_slice())
-            .unwrap_or(&self.received);
+        let behind = self.received.strip_prefix(self.sent.as_slice());
+        let only_echo = behind == Some(&[]) && self.echo != Some(false);
+        let nothing = self.received.is_empty() || only_echo;
         let expected = match step.expect {
-            Expect::Silence if behind.is_empty() => return Ok(None),
+            Expect::Silence if nothing => return Ok(None),
             Expect::Silence => return Err(Stop::Unasked),
             Expect::Reply => None,
             Expect::CountsRound => Some(round),
@@ -225,16 +230,20 @@ impl Runner {
             let named = !echoes || bytes.first() == self.sent.first();
             named && bits.len() == layout.len && layout.holds(bits)
         };
-        let reply = [self.received.as_slice(), behind]
-            .into_iter()
-            .find(|bytes| good(bytes));
-        let Some(reply) = reply else {
-            return Err(match behind.is_empty() {
-                true => Stop::NoReply,
-                false => Stop::BadReply,
-            });
+        let plain = self.echo != Some(true) && good(&self.received);
+        let echoed = behind.filter(|bytes| self.echo != Some(false) && good(bytes));
+        let reply = match echoed {
+            Some(reply) => reply,
+            None if plain => &self.received,
+            None if nothing => return Err(Stop::NoReply),
+            None => return Err(Stop::BadReply),
         };
         let values = layout.values(Bits::of_bytes(reply));
+        self.echo = Some(echoed.is_some());
+        let status = u64::from(values.status.unwrap_or(0));
+        if self.decoder.profile().format == Format::T485 && status & t485::not_understood() != 0 {
+            return Err(Stop::NotUnderstood);
+        }
         match (expected, values.count) {
             (Some(expected), Some(received)) if expected != received => {
                 Err(Stop::WrongCount { expected, received })
@@ -258,28 +267,27 @@ impl Runner {
     fn reply(&self, send: Send) -> Resolved {
         let profile = *self.decoder.profile();
         let table = match send {
-            Send::Rs485(command) => Command::reply(command),
+            Send::Rs485(command) => command.reply(),
             Send::T485(request) => request.reply(),
             Send::Bus(operation) => operation.reply(),
-            Send::Address(_) | Send::NewAddress => {
-                crate::format::bus::Operation::SetAddress.reply()
-            }
-            Send::GetNew => crate::format::bus::Operation::Get.reply(),
+            Send::Address(_) | Send::NewAddress => Operation::SetAddress.reply(),
+            Send::GetNew => Operation::Get.reply(),
         };
         Resolved::new(table, Shape::of(profile))
     }
 
     fn end(&mut self, stop: Option<Stop>) {
+        // The encoder acts on the command `acts`.
         let acts = self.total() - 2;
-        let out = self.state != State::Ended && matches!(self.state, State::Waiting(_));
-        // The encoder acts on the command `acts`; its right answer says that it did.
-        let holds = match self.at {
-            at if at > acts => Holds::New,
-            at if at == acts && out => match stop {
-                Some(Stop::WrongCount { .. }) => Holds::Old,
-                _ => Holds::Unknown,
-            },
-            _ => Holds::Old,
+        let out = matches!(self.state, State::Waiting(_));
+        let counted = self.script.proof == Proof::Count;
+        let holds = match stop {
+            None => self.proven(),
+            Some(_) if self.at > acts && counted => Holds::New,
+            Some(_) if self.at > acts => Holds::Unknown,
+            Some(Stop::WrongCount { .. } | Stop::NotUnderstood) => Holds::Old,
+            Some(_) if self.at == acts && out => Holds::Unknown,
+            Some(_) => Holds::Old,
         };
         self.state = State::Ended;
         self.output.push_back(Event::Ended {
@@ -287,5 +295,40 @@ impl Runner {
             holds,
             last: self.last,
         });
+    }
+
+    /// What the readings before and after show.
+    fn proven(&self) -> Holds {
+        let (Some(first), Some(last)) = (self.first, self.last) else {
+            return Holds::Unknown;
+        };
+        let codes = bits::codes(self.decoder.profile().angle_bits) as f64;
+        // A shaft may turn a little meanwhile; what is near is within 1/64 turn.
+        let near = |one: u64, other: u64| {
+            let apart = (one as f64 - other as f64).abs() / codes;
+            apart.min((1.0 - apart).abs()) < 1.0 / 64.0
+        };
+        let shown = match self.script.proof {
+            Proof::Count | Proof::Memory => Some(true),
+            Proof::Errors => match (last.error, last.alarm) {
+                (Some(false), Some(0)) => Some(true),
+                _ => None,
+            },
+            Proof::Angle => match (first.angle, last.angle) {
+                (Some(first), Some(last)) if !near(first, 0) && near(last, 0) => Some(true),
+                (Some(first), Some(last)) if !near(first, 0) && near(last, first) => Some(false),
+                _ => None,
+            },
+            Proof::Turns => match (first.turns, last.turns) {
+                (Some(first), Some(0)) if first != 0 => Some(true),
+                (Some(first), Some(last)) if first != 0 && last == first => Some(false),
+                _ => None,
+            },
+        };
+        match shown {
+            Some(true) => Holds::New,
+            Some(false) => Holds::Old,
+            None => Holds::Unknown,
+        }
     }
 }

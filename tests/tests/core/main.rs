@@ -8,5 +8,6 @@ mod detection;
 mod dumps;
 mod framing;
 mod laws;
+mod sequences;
 mod sessions;
 mod vectors;
