@@ -408,7 +408,7 @@ impl Framer {
             // The frames only repeat one another, so that the zeros in front of another phase
             // prove nothing against the phase that the input began with.
             (Some(own), Some((shift, _)))
-                if passes && own.only_repeats() && self.last.is_none() =>
+                if passes && anchored && own.only_repeats() && self.last.is_none() =>
             {
                 first.map_or(skip(decoder, rest, shift), |layout| {
                     Step::Frame(layout, Trust::Unsure)
