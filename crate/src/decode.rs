@@ -205,7 +205,7 @@ impl Decoder {
         let own = values.address.map(u32::from) == Some(self.profile.address);
         let parity = match values.parity {
             Some(parity) if parity.ok() => 1,
-            Some(_) => -4,
+            Some(_) => -6,
             None => 0,
         };
         parity + if own { 6 } else { 0 }

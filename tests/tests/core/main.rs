@@ -11,4 +11,5 @@ mod framing;
 mod laws;
 mod sequences;
 mod sessions;
+mod streams;
 mod vectors;
