@@ -102,9 +102,7 @@ impl Resolved {
         let tenths = || tenths(bits::signed(raw, field.width as usize) as i32);
         let text = match field.row.role {
             Role::Turns => {
-                let turns = self.values(bits).turns.unwrap_or(0);
-                let sign = if turns < 0 { "−" } else { "" };
-                format!("{sign}{} turns", grouped(turns.unsigned_abs()))
+                format!("{} turns", grouped_signed(self.turns(raw)))
             }
             Role::Angle => format!(
                 "{} of {} → {}°",
@@ -225,4 +223,15 @@ pub fn grouped(value: u64) -> String {
         out.push(digit);
     }
     out
+}
+
+/// The same of a number that may be negative.
+///
+/// ```
+/// assert_eq!(encoderscope::explain::grouped_signed(-1_000), "−1\u{202f}000");
+/// ```
+#[must_use]
+pub fn grouped_signed(value: i64) -> String {
+    let sign = if value < 0 { "−" } else { "" };
+    format!("{sign}{}", grouped(value.unsigned_abs()))
 }

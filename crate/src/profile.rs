@@ -89,9 +89,10 @@ fn error(name: &str, message: impl Into<String>) -> ProfileError {
     }
 }
 
-/// A parameter: its name, and how it is written and read.
+/// A parameter: its name, its words where it is not a number, and how it is written and read.
 struct Parameter {
     name: &'static str,
+    words: &'static [&'static str],
     show: fn(&Profile) -> Value,
     set: fn(&mut Profile, &str) -> Result<(), String>,
 }
@@ -99,26 +100,31 @@ struct Parameter {
 const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "angle-bits",
+        words: &[],
         show: |p| p.angle_bits.into(),
         set: |p, text| number(text).map(|value| p.angle_bits = value),
     },
     Parameter {
         name: "turns-bits",
+        words: &[],
         show: |p| p.turns_bits.into(),
         set: |p, text| number(text).map(|value| p.turns_bits = value),
     },
     Parameter {
         name: "status-bits",
+        words: &[],
         show: |p| p.status_bits.into(),
         set: |p, text| number(text).map(|value| p.status_bits = value),
     },
     Parameter {
         name: "ack-bits",
+        words: &[],
         show: |p| p.ack_bits.into(),
         set: |p, text| number(text).map(|value| p.ack_bits = value),
     },
     Parameter {
         name: "command",
+        words: &["0", "1", "d", "s", "t"],
         show: |p| p.command.letter().to_string().into(),
         set: |p, text| {
             Command::parse(text)
@@ -128,56 +134,67 @@ const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "address",
+        words: &[],
         show: |p| p.address.into(),
         set: |p, text| number(text).map(|value| p.address = value),
     },
     Parameter {
         name: "code",
+        words: Code::WORDS,
         show: |p| p.code.word().into(),
         set: |p, text| chosen(text).map(|value| p.code = value),
     },
     Parameter {
         name: "align",
+        words: Align::WORDS,
         show: |p| p.align.word().into(),
         set: |p, text| chosen(text).map(|value| p.align = value),
     },
     Parameter {
         name: "frame-bits",
+        words: &[],
         show: |p| p.frame_bits.into(),
         set: |p, text| number(text).map(|value| p.frame_bits = value),
     },
     Parameter {
         name: "parity",
+        words: Parity::WORDS,
         show: |p| p.parity.word().into(),
         set: |p, text| chosen(text).map(|value| p.parity = value),
     },
     Parameter {
         name: "turns-code",
+        words: TurnsCode::WORDS,
         show: |p| p.turns_code.word().into(),
         set: |p, text| chosen(text).map(|value| p.turns_code = value),
     },
     Parameter {
         name: "status-active",
+        words: StatusActive::WORDS,
         show: |p| p.status_active.word().into(),
         set: |p, text| chosen(text).map(|value| p.status_active = value),
     },
     Parameter {
         name: "dialect",
+        words: Dialect::WORDS,
         show: |p| p.dialect.word().into(),
         set: |p, text| chosen(text).map(|value| p.dialect = value),
     },
     Parameter {
         name: "marker",
+        words: Marker::WORDS,
         show: |p| p.marker.word().into(),
         set: |p, text| chosen(text).map(|value| p.marker = value),
     },
     Parameter {
         name: "baud",
+        words: &[],
         show: |p| p.baud.into(),
         set: |p, text| number(text).map(|value| p.baud = value),
     },
     Parameter {
         name: "justify",
+        words: Justify::WORDS,
         show: |p| p.justify.word().into(),
         set: |p, text| chosen(text).map(|value| p.justify = value),
     },
@@ -261,11 +278,7 @@ impl Profile {
             if name == "format" || name == "model" {
                 continue;
             }
-            let parameter = PARAMETERS
-                .iter()
-                .find(|parameter| parameter.name == name)
-                .ok_or_else(|| error(name, "is no parameter of a profile"))?;
-            (parameter.set)(&mut profile, value).map_err(|message| error(name, message))?;
+            profile.set(name, value)?;
         }
         if find("frame-bits").is_none() && find("model").is_none() {
             profile.frame_bits = profile.natural_frame_bits();
@@ -286,6 +299,44 @@ impl Profile {
             }
             _ => self.format.default_profile().frame_bits,
         }
+    }
+
+    /// This profile with one parameter changed; a word length that follows from the widths goes
+    /// with them.
+    ///
+    /// ```
+    /// use encoderscope::format::Format;
+    /// let profile = Format::SsiTree.default_profile().with("turns-bits", "0")?;
+    /// assert_eq!(profile.frame_bits, 13);
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// An unknown name, an unreadable value, or a width the format has no room for.
+    pub fn with(&self, name: &str, value: &str) -> Result<Self, ProfileError> {
+        let mut changed = *self;
+        changed.set(&kebab(name), value)?;
+        if name != "frame-bits" && self.frame_bits == self.natural_frame_bits() {
+            changed.frame_bits = changed.natural_frame_bits();
+        }
+        changed.check()?;
+        Ok(changed)
+    }
+
+    fn set(&mut self, name: &str, value: &str) -> Result<(), ProfileError> {
+        let parameter = PARAMETERS
+            .iter()
+            .find(|parameter| parameter.name == name)
+            .ok_or_else(|| error(name, "is no parameter of a profile"))?;
+        (parameter.set)(self, value).map_err(|message| error(name, message))
+    }
+
+    /// The words that a parameter can be; none for a number.
+    #[must_use]
+    pub fn words(name: &str) -> &'static [&'static str] {
+        let known = PARAMETERS.iter().find(|known| known.name == name);
+        known.map_or(&[], |known| known.words)
     }
 
     /// Whether `name`, in either spelling, names a parameter.

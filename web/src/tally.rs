@@ -123,7 +123,13 @@ impl Tally {
         false
     }
 
-    fn take_frame(&mut self, now: Micros, bytes: &[u8], sure: bool, latency: Micros) -> bool {
+    fn take_frame(
+        &mut self,
+        now: Micros,
+        bytes: &[u8],
+        sure: bool,
+        latency: Option<Micros>,
+    ) -> bool {
         let frame = self
             .decoder
             .as_ref()
@@ -154,7 +160,7 @@ impl Tally {
             self.last_good = Some(bytes.into());
             self.good_times.push_back(now);
             self.forget(now);
-            self.latencies.push_back(latency);
+            self.latencies.extend(latency);
             if self.latencies.len() > LATENCIES {
                 self.latencies.pop_front();
             }
@@ -254,7 +260,7 @@ fn shown(frame: &Frame<'_>) -> Option<Shown> {
         turns: reading.turns.map(|turns| turns as f64),
         error: reading.error,
         warning: reading.warning,
-        status: values.status,
+        status: reading.status,
         speed: scaled(values.speed),
         temperature: scaled(values.temperature),
     })

@@ -4,7 +4,7 @@ use encoderscope::{
     bits::Bits,
     decode::{Decoded, Decoder},
     dump,
-    format::{Format, Medium, t485::Request},
+    format::{Format, Medium},
     model,
     profile::{Profile, camel},
     reading::Values,
@@ -142,7 +142,7 @@ pub fn explain(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
         _ => Bits::of_bytes(&bytes),
     };
     let frame = match medium {
-        Medium::Bytes => decoder.frame(&bytes),
+        Medium::Bytes | Medium::Text => decoder.frame(&bytes),
         Medium::Bits => decoder.line(bits).ok(),
     };
     let frame =
@@ -155,7 +155,7 @@ pub fn explain(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
     to_js(Value::List(notes))
 }
 
-/// The frame that says `values`, as hexadecimal digits.
+/// The frame that says `values`: hexadecimal digits, or 0 and 1 where it is not whole bytes.
 #[wasm_bindgen]
 pub fn encode(profile: &JsValue, values: &JsValue) -> Result<String, JsError> {
     let decoder = decoder(profile)?;
@@ -163,12 +163,8 @@ pub fn encode(profile: &JsValue, values: &JsValue) -> Result<String, JsError> {
     let byte = |name: &str| number(name).map(|value| value as u8);
     let tenths = |name: &str| number(name).map(|value| (value * 10.0).round() as i32);
     let flag = |name: &str| property(values, name).as_bool();
-    // A T485 reply names what was asked for.
-    let asked = decoder
-        .main_layout()
-        .values(Bits::of_bytes(&[Request::All.byte()]));
     let values = Values {
-        turns: number("turns").map(|value| value as u64),
+        turns: number("turns").map(|value| value as i64),
         angle: number("angle").map(|value| value as u64),
         error: flag("error"),
         warning: flag("warning"),
@@ -178,12 +174,21 @@ pub fn encode(profile: &JsValue, values: &JsValue) -> Result<String, JsError> {
         speed: tenths("speed"),
         temperature: tenths("temperature"),
         count: byte("count"),
-        operation: byte("operation").or(asked.operation),
+        operation: byte("operation"),
+        address: byte("address"),
+        valid: flag("valid"),
+        zero_default: flag("zeroDefault"),
         memory: (byte("memoryAddress"), byte("memoryData")),
         ..Values::default()
     };
-    let frame = decoder.main_layout().encode(&values);
-    Ok(encoderscope::record::hex(frame.as_bits().bytes()))
+    let frame = decoder.encode(&values);
+    let (bits, len) = (frame.as_bits(), frame.as_bits().len());
+    Ok(match len % 8 {
+        0 => encoderscope::record::hex(bits.bytes()),
+        _ => (0..len)
+            .map(|index| if bits.bit(index) { '1' } else { '0' })
+            .collect(),
+    })
 }
 
 /// The profile of an order code.

@@ -98,18 +98,18 @@ impl App {
     pub(crate) fn demo(&self, source: Source) {
         self.source.set(source);
         self.notice.set(None);
-        let profile = self.pollable();
+        let profile = self.readable();
         self.running.set(Some(profile));
         self.send(ToEngine::Demo {
             profile: query(&profile),
         });
     }
 
-    /// The present profile, or the nearest one that the console can poll: a dump can be decoded
-    /// as more than can be asked for.
-    fn pollable(&self) -> Profile {
+    /// The present profile, or the nearest one that the console can read: a dump can be decoded
+    /// as more than comes over a serial line.
+    fn readable(&self) -> Profile {
         let profile = self.profile.get_untracked();
-        if !profile.format.is_polled() {
+        if !profile.format.is_serial() {
             Format::T485.default_profile()
         } else if profile.command.changes_encoder() {
             Profile {
@@ -201,7 +201,7 @@ impl App {
             Source::Port if running == Some(shown) => {}
             Source::Port if self.snapshot.get_untracked().link.is_open() => self.connect(),
             Source::Port => {}
-            Source::Demo | Source::Preview if running == Some(self.pollable()) => {}
+            Source::Demo | Source::Preview if running == Some(self.readable()) => {}
             source => self.demo(source),
         }
     }
@@ -317,7 +317,7 @@ fn summary(profile: &Profile) -> impl IntoView + use<> {
     if profile.turns_bits > 0 {
         text += &format!(" + {} turns", profile.turns_bits);
     }
-    if profile.format.is_polled() {
+    if profile.format.is_serial() {
         text += &format!(" · {} Mbaud", f64::from(profile.baud) / 1e6);
     }
     view! { <b>{profile.format.title()}</b> " " {text} }

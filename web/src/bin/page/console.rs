@@ -5,7 +5,7 @@ use crate::{
     dial::{AngleDigits, Dial},
     profile_editor::{Offer, ProfileEditor},
 };
-use encoderscope::explain::grouped;
+use encoderscope::explain::{grouped, grouped_signed};
 use encoderscope_web::{
     message::{Counts, Entry, Lamp, Link, Shown, Snapshot},
     serial::{self, Absent},
@@ -88,7 +88,7 @@ fn Welcome() -> impl IntoView {
             {move || app.notice.get().map(|notice| view! { <p class="fault" role="alert">{notice}</p> })}
             <details>
                 <summary>"Encoder settings"</summary>
-                <ProfileEditor offer=Offer::Polled />
+                <ProfileEditor offer=Offer::Serial />
             </details>
         </section>
     }
@@ -125,7 +125,7 @@ fn LinkPanel() -> impl IntoView {
             <PortChooser />
             <details>
                 <summary>"Encoder settings"</summary>
-                <ProfileEditor offer=Offer::Polled />
+                <ProfileEditor offer=Offer::Serial />
             </details>
             <Counters />
         </section>
@@ -328,7 +328,7 @@ fn Angle() -> impl IntoView {
                 <AngleDigits shown=shown />
                 <p class="of">{move || counts().unwrap_or_else(|| "no reading yet".into())}</p>
                 <dl>
-                    {row("turns", "turns", |shown| shown.turns, |turns| grouped(turns as u64))}
+                    {row("turns", "turns", |shown| shown.turns, |turns| grouped_signed(turns as i64))}
                     {row(
                         "unwrapped",
                         "unwrapped",
@@ -378,7 +378,7 @@ fn Status() -> impl IntoView {
                 {move || lamps.get().into_iter().map(|lamp| view! { <LampRow lamp=lamp /> }).collect_view()}
             </ul>
             {move || (shown.get().is_some() && lamps.get().is_empty()).then(|| view! {
-                <p class="hint">"This reply carries no status bits; the reply to ‘d’ does."</p>
+                <p class="hint">"These frames carry no status bits."</p>
             })}
             {move || shown.get().is_none().then(|| view! { <p class="hint">"Shown with the first good frame."</p> })}
         </section>

@@ -9,7 +9,7 @@ use encoderscope::{
     decode::{Decoded, Decoder, Frame, Summary},
     detect::{Candidate, detect},
     dump::{self, Dump},
-    explain::{degrees_text, grouped},
+    explain::{degrees_text, grouped, grouped_signed},
     format::{Format, Medium},
     framing::Why,
     profile::Profile,
@@ -25,7 +25,7 @@ const MOST_ROWS: usize = 1000;
 struct Row {
     start: u64,
     ok: bool,
-    turns: Option<u64>,
+    turns: Option<i64>,
     angle: Option<(u64, String)>,
     status: String,
     check: String,
@@ -115,7 +115,7 @@ fn table(profile: &Profile, text: &str) -> Table {
     };
     let unit = match profile.format.medium() {
         Medium::Bits => "bits",
-        Medium::Bytes => "bytes",
+        Medium::Bytes | Medium::Text => "bytes",
     };
     let mut rows = Vec::new();
     let mut frames = 0;
@@ -144,7 +144,7 @@ fn table(profile: &Profile, text: &str) -> Table {
 /// Explains the frame of an index.
 fn explained(profile: &Profile, text: &str, index: usize) -> Option<Explained> {
     let (decoder, dump) = parse(profile, text)?;
-    let bytes = profile.format.medium() == Medium::Bytes;
+    let bytes = profile.format.medium() != Medium::Bits;
     let mut at = 0;
     let mut found = None;
     decoder.dump(&dump, &mut |decoded| {
@@ -161,13 +161,23 @@ fn explained(profile: &Profile, text: &str, index: usize) -> Option<Explained> {
 /// An example of each format, from public captures and the manuals' rules.
 const fn example(format: Format) -> &'static str {
     match format {
-        Format::T485 => {
-            "1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"
-        }
-        Format::Rs485 => "00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n",
+        Format::Ssi => "00 05 12 34 56 00\n00 05 12 a0 01 00\nff fe 13 00 00 60\n",
         Format::BissC => {
             "82 00 05 55 a3 c1 c0 d4\n82 00 05 56 b0 f7 c0 48\n82 ff fe 80 00 01 90 88\n"
         }
+        Format::Rs485 | Format::Period => {
+            "00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n"
+        }
+        Format::T485 => {
+            "1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"
+        }
+        Format::Bus => {
+            "1f 1f 00 56 34 12 05 00 6a\n1f 1f 00 01 a0 12 05 00 a9\n1f 1f 60 00 00 13 fe ff 6d\n"
+        }
+        Format::Asi1 => "60 00 00 06 00 35\n60 03 7f 7c 15 4a\n60 00 00 00 00 66\n",
+        Format::Asi4 => "8190\n8191\n8192\n",
+        Format::Ssi7 => "000000000000000000000000000110\n000000000000001000000000000011\n",
+        Format::SsiTree => "1010010100101001000100011\n0110001111111011110001000\n",
     }
 }
 
@@ -232,7 +242,7 @@ pub(crate) fn Decode() -> impl IntoView {
                     <section class="panel">
                         <h2>"Frames"</h2>
                         <p class="hint">
-                            "Paste hexadecimal bytes with any separators, or strings of 0 and 1. A T485 or RS485 dump is one stream; of BiSS-C, each line is a frame."
+                            "Paste hexadecimal bytes with any separators, or strings of 0 and 1. A dump from a serial line is one stream; of SSI and BiSS-C, each line is a frame."
                         </p>
                     </section>
                 })}
@@ -257,8 +267,10 @@ fn describe(profile: &Profile) -> String {
     if profile.format == Format::Rs485 {
         text += &format!(", reply to ‘{}’", profile.command.letter());
     }
-    if profile.format == Format::BissC {
-        text += &format!(", {} status bits", profile.status_bits);
+    match profile.format {
+        Format::BissC => text += &format!(", {} status bits", profile.status_bits),
+        Format::Bus => text += &format!(", device 0x{:02X}", profile.address),
+        _ => {}
     }
     text
 }
@@ -404,7 +416,7 @@ fn RowView(row: Row, chosen: RwSignal<usize>) -> impl IntoView {
     let dash = || "–".to_owned();
     // The numbers of a frame that fails are in its fields; here they would pass for good ones.
     let good = |text: Option<String>| text.filter(|_| row.ok).unwrap_or_else(dash);
-    let turns = good(row.turns.map(grouped));
+    let turns = good(row.turns.map(grouped_signed));
     let angle = good(row.angle.clone().map(|(_, degrees)| degrees + "°"));
     view! {
         <tr

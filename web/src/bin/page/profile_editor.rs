@@ -1,4 +1,4 @@
-//! Choosing a profile: format, widths, command and baud.
+//! Choosing a profile: format, widths, and what else its format can be.
 
 use crate::app::App;
 use encoderscope::{
@@ -10,10 +10,53 @@ use leptos::prelude::*;
 /// Whether formats that have no serial line may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Offer {
-    /// Only what can be polled.
-    Polled,
+    /// Only what comes over a serial line.
+    Serial,
     /// Everything.
     All,
+}
+
+/// What a parameter is called on the page.
+const fn label(name: &str) -> &'static str {
+    match name.as_bytes() {
+        b"angle-bits" => "Angle bits",
+        b"turns-bits" => "Turns bits",
+        b"status-bits" => "Status bits",
+        b"ack-bits" => "Ack bits",
+        b"command" => "Reply to",
+        b"address" => "Address",
+        b"code" => "Code",
+        b"align" => "Align",
+        b"frame-bits" => "Frame bits",
+        b"parity" => "Parity",
+        b"turns-code" => "Turns are",
+        b"status-active" => "Status active",
+        b"dialect" => "Dialect",
+        b"marker" => "Top bits",
+        b"baud" => "Baud",
+        b"justify" => "Justify",
+        _ => "",
+    }
+}
+
+/// Parameters that few users need to touch.
+fn is_rare(format: Format, name: &str) -> bool {
+    let rare = [
+        "ack-bits",
+        "turns-code",
+        "status-active",
+        "marker",
+        "justify",
+    ];
+    rare.contains(&name) || format == Format::Bus && name == "parity"
+}
+
+/// Whether a parameter is of use here.
+fn is_offered(offer: Offer, name: &str) -> bool {
+    match offer {
+        Offer::Serial => name != "justify",
+        Offer::All => name != "baud",
+    }
 }
 
 /// Edits the shared profile.
@@ -21,44 +64,39 @@ pub(crate) enum Offer {
 pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
     let app = expect_context::<App>();
     let fault = RwSignal::new(None::<String>);
-    let formats = Format::ALL
-        .iter()
-        .filter(move |format| offer == Offer::All || format.is_polled());
-    let change = move |new: Profile| match new.check() {
-        Ok(()) => {
+    let change = move |name: &'static str, text: String| match app
+        .profile
+        .get_untracked()
+        .with(name, text.trim())
+    {
+        Ok(new) => {
             fault.set(None);
             app.change_profile(new);
         }
         Err(error) => fault.set(Some(error.to_string())),
     };
-    let number = move |name: &'static str,
-                       label: &'static str,
-                       read: fn(&Profile) -> u32,
-                       write: fn(&mut Profile, u32)| {
-        let used = move || app.profile.get().format.parameters().contains(&name);
-        let edited = move |text: String| match text.parse() {
-            Ok(value) => {
-                let mut new = app.profile.get_untracked();
-                write(&mut new, value);
-                change(new);
-            }
-            Err(_) => fault.set(Some(format!("{name}: {text:?} is not a whole number"))),
-        };
-        move || {
-            used().then(|| {
-                view! {
-                    <label>
-                        {label}
-                        <input
-                            inputmode="numeric"
-                            name=name
-                            prop:value=move || read(&app.profile.get()).to_string()
-                            on:change:target=move |event| edited(event.target().value())
-                        />
-                    </label>
-                }
-            })
+    let choose = move |name: String| {
+        if let Some(format) = Format::parse(&name) {
+            fault.set(None);
+            app.change_profile(format.default_profile());
         }
+    };
+    let formats = Format::ALL
+        .iter()
+        .filter(move |format| offer == Offer::All || format.is_serial());
+    let format = Memo::new(move |_| app.profile.get().format);
+    let shown = move |rare: bool| {
+        let format = format.get();
+        let names = format.parameters().iter().copied();
+        names
+            .filter(move |name| is_offered(offer, name) && is_rare(format, name) == rare)
+            .map(move |name| view! { <Parameter name=name offer=offer change=change /> })
+            .collect_view()
+    };
+    let has_rare = move || {
+        let format = format.get();
+        let mut names = format.parameters().iter();
+        names.any(|name| is_offered(offer, name) && is_rare(format, name))
     };
     view! {
         <div class="profile">
@@ -66,73 +104,91 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
                 "Format"
                 <select
                     name="format"
-                    prop:value=move || app.profile.get().format.name()
-                    on:change:target=move |event| {
-                        if let Some(format) = Format::parse(&event.target().value()) {
-                            change(format.default_profile());
-                        }
-                    }
+                    prop:value=move || format.get().name()
+                    on:change:target=move |event| choose(event.target().value())
                 >
                     {formats
-                        .map(|format| {
+                        .map(|known| {
                             view! {
-                                <option value=format.name() selected=move || app.profile.get().format == *format>
-                                    {format.title()}
+                                <option value=known.name() selected=move || format.get() == *known>
+                                    {known.title()}
                                 </option>
                             }
                         })
                         .collect_view()}
                 </select>
             </label>
-            {number("angle-bits", "Angle bits", |p| p.angle_bits, |p, value| p.angle_bits = value)}
-            {number("turns-bits", "Turns bits", |p| p.turns_bits, |p, value| p.turns_bits = value)}
-            {number("status-bits", "Status bits", |p| p.status_bits, |p, value| p.status_bits = value)}
-            {move || {
-                let used = app.profile.get().format.parameters().contains(&"command");
-                used.then(|| {
-                    view! {
-                        <label>
-                            "Reply to"
-                            <select
-                                name="command"
-                                on:change:target=move |event| {
-                                    if let Some(command) = Command::parse(&event.target().value()) {
-                                        change(Profile { command, ..app.profile.get_untracked() });
-                                    }
-                                }
-                            >
-                                {Command::ALL
-                                    .iter()
-                                    .filter(|command| offer == Offer::All || !command.changes_encoder())
-                                    .map(|command| {
-                                        view! {
-                                            <option
-                                                value=command.letter().to_string()
-                                                selected=move || app.profile.get().command == *command
-                                            >
-                                                {command_title(*command)}
-                                            </option>
-                                        }
-                                    })
-                                    .collect_view()}
-                            </select>
-                        </label>
-                    }
-                })
-            }}
-            {(offer == Offer::Polled)
-                .then(|| number("baud", "Baud", |p| p.baud, |p, value| p.baud = value))}
+            {move || shown(false)}
+            {move || has_rare().then(|| view! {
+                <details>
+                    <summary>"More"</summary>
+                    <div class="profile">{shown(true)}</div>
+                </details>
+            })}
             {move || fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
         </div>
     }
 }
 
-const fn command_title(command: Command) -> &'static str {
-    match command {
-        Command::Zero => "0 · set zero",
-        Command::Position => "1 · position",
-        Command::Status => "d · position, status",
-        Command::Speed => "s · position, speed",
-        Command::Temperature => "t · position, temperature",
+/// One parameter: a number, or a word out of a few.
+#[component]
+fn Parameter(
+    name: &'static str,
+    offer: Offer,
+    change: impl Fn(&'static str, String) + Copy + Send + 'static,
+) -> impl IntoView {
+    let app = expect_context::<App>();
+    let value = Memo::new(move |_| {
+        let parameters = app.profile.get().parameters();
+        let mine = parameters.into_iter().find(|(known, _)| *known == name);
+        mine.map(|(_, value)| value.plain()).unwrap_or_default()
+    });
+    let words = Profile::words(name);
+    let input = if words.is_empty() {
+        view! {
+            <input
+                inputmode="numeric"
+                name=name
+                prop:value=move || value.get()
+                on:change:target=move |event| change(name, event.target().value())
+            />
+        }
+        .into_any()
+    } else {
+        let options = words
+            .iter()
+            .filter(move |word| offer == Offer::All || !writes(name, word));
+        view! {
+            <select name=name on:change:target=move |event| change(name, event.target().value())>
+                {options
+                    .map(|word| {
+                        view! {
+                            <option value=*word selected=move || value.get() == *word>
+                                {title(name, word)}
+                            </option>
+                        }
+                    })
+                    .collect_view()}
+            </select>
+        }
+        .into_any()
+    };
+    view! { <label>{label(name)} {input}</label> }
+}
+
+/// Whether a word stands for a command that changes the encoder.
+fn writes(name: &str, word: &str) -> bool {
+    name == "command" && Command::parse(word).is_some_and(Command::changes_encoder)
+}
+
+/// What a word is called on the page.
+fn title(name: &str, word: &'static str) -> &'static str {
+    match (name, Command::parse(word)) {
+        ("command", Some(Command::Zero)) => "0 · set zero",
+        ("command", Some(Command::Position)) => "1 · position",
+        ("command", Some(Command::Status)) => "d · position, status",
+        ("command", Some(Command::Speed)) => "s · position, speed",
+        ("command", Some(Command::Temperature)) => "t · position, temperature",
+        _ => word,
     }
 }
