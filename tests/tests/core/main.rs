@@ -10,3 +10,4 @@ mod framing;
 mod laws;
 mod sessions;
 mod vectors;
+mod vectors_ssi;
