@@ -99,7 +99,7 @@ layout! {
 /// Bits of the data and the parity.
 const fn number(p: &Profile) -> u32 {
     let parity = !matches!(p.parity, Parity::None);
-    p.turns_bits + p.angle_bits + parity as u32
+    p.turns_bits.saturating_add(p.angle_bits).saturating_add(parity as u32)
 }
 
 /// Columns that the left half of a fir-tree has beyond the turns.
@@ -127,7 +127,7 @@ const fn trailing(p: &Profile) -> u32 {
 #[must_use]
 pub const fn needed_bits(p: &Profile) -> u32 {
     match p.align {
-        Align::Tree => number(p) + left(p, 0),
+        Align::Tree => number(p).saturating_add(left(p, 0)),
         Align::Right => number(p),
     }
 }
