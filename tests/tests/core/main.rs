@@ -8,6 +8,7 @@ mod detection;
 mod dumps;
 mod framing;
 mod laws;
+mod laws_asi;
 mod laws_bits;
 mod laws_formats;
 mod layouts;
