@@ -118,7 +118,8 @@ fn tree_decoder(vector: &Value, frame: &Value, code: &str) -> Decoder {
     ))
 }
 
-fn text(bits: Bits<'_>) -> String {
+/// The bits in digits.
+pub(crate) fn text(bits: Bits<'_>) -> String {
     (0..bits.len())
         .map(|at| if bits.bit(at) { '1' } else { '0' })
         .collect()
