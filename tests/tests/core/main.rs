@@ -11,6 +11,7 @@ mod laws;
 mod laws_asi;
 mod laws_bits;
 mod laws_formats;
+mod laws_profiles;
 mod laws_ssi;
 mod layouts;
 mod sessions;
