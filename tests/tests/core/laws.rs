@@ -6,7 +6,9 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use super::layouts::{Case, layouts};
 use encoderscope::{
     bits::{self, BitString, Bits},
+    format::Format,
     layout::{Coding, Covered, Field, Resolved, Role},
+    profile::{Code, Parity},
     reading::{Checked, FaultKind, Values},
 };
 use encoderscope_tests::Noise;
@@ -71,6 +73,21 @@ fn is_guarded(layout: &Resolved, index: usize) -> bool {
         let fixed = field.row.constant.is_some() && holds(field);
         covered || fixed || (field.row.role == Role::Repeat && repeated(field))
     })
+}
+
+/// The fields whose bits may be turned over in a good frame without any check failing; `None`
+/// where the format has no check.
+fn unguarded(layout: &Resolved) -> Option<&'static [&'static str]> {
+    let profile = &layout.shape.profile;
+    match profile.format {
+        Format::Rs485 | Format::T485 | Format::Bus | Format::Period | Format::Asi1 => Some(&[]),
+        Format::BissC => Some(&["idle", "cds", "tail"]),
+        Format::Ssi7 => Some(&["idle", "alarm", "tail"]),
+        Format::SsiTree if profile.parity != Parity::None || layout.shape.repeats > 0 => {
+            Some(&["idle", "tail"])
+        }
+        Format::Ssi | Format::SsiTree | Format::Asi4 => None,
+    }
 }
 
 #[test]
@@ -175,6 +192,10 @@ fn a_flipped_bit_is_caught_where_it_is_guarded_and_changes_no_other_field() {
             if coding != Some(Coding::Decimal) {
                 let guarded = is_guarded(layout, index);
                 assert_eq!(caught, guarded, "{name} bit {index} of {}", own.row.name);
+            }
+            if let Some(open) = unguarded(layout) {
+                let open = open.contains(&own.row.name);
+                assert_eq!(caught, !open, "{name} bit {index} of {}", own.row.name);
             }
             let after = numbers(flipped.as_bits());
             for ((field, before), after) in layout.fields().zip(&before).zip(&after) {
@@ -327,6 +348,39 @@ fn a_fixed_field_with_another_value_is_named_by_its_fault() {
             let found = faults.iter().any(|fault| fault.kind == expected);
             assert!(found, "{name} {}: {faults:?}", row.name);
             assert!(layout.reading(wrong.as_bits()).is_err(), "{name}");
+        }
+    }
+}
+
+#[test]
+fn what_carries_no_number_is_fixed_but_for_what_the_manuals_leave_open() {
+    for Case { name, layout } in layouts() {
+        for field in layout.fields() {
+            let row = field.row;
+            let gray = layout.shape.code == Code::Gray;
+            let open = match row.name {
+                "idle" | "tail" | "cds" | "marker" | "unknown" => true,
+                "trailing" => gray,
+                _ => false,
+            };
+            match row.role {
+                Role::Framing => assert_eq!(row.constant.is_none(), open, "{name} {}", row.name),
+                Role::Padding => assert_eq!(row.constant, Some(0), "{name} {}", row.name),
+                _ => assert_eq!(row.constant, None, "{name} {}", row.name),
+            }
+        }
+        for filler in [
+            "padding",
+            "turns_padding",
+            "angle_padding",
+            "leading",
+            "unused",
+        ] {
+            let mut fields = layout.fields().filter(|field| field.row.name == filler);
+            assert!(
+                fields.all(|field| field.row.role == Role::Padding),
+                "{name}"
+            );
         }
     }
 }
