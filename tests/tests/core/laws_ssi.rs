@@ -246,3 +246,65 @@ fn one_step_of_the_shaft_changes_one_bit_of_a_gray_word() {
         last = Some(word);
     }
 }
+
+/// An adapter reads more clocks than a word has; the line is idle or low for the rest of them,
+/// which is no second word.
+#[test]
+fn one_word_alone_in_wide_bytes_is_not_taken_for_a_repeated_one() {
+    let mut noise = Noise::new(6);
+    for (parameters, len) in [("turns-bits=0", 13), ("turns-bits=12", 25)] {
+        for side in ["left", "right"] {
+            let decoder = decoder(&format!("format=ssi-tree {parameters} justify={side}"));
+            let values = random_values(&mut noise, &decoder);
+            let word = text(decoder.encode(&values).as_bits());
+            for bytes in 4..=16 {
+                for fill in ["0", "1"] {
+                    let spare = fill.repeat(bytes * 8 - len);
+                    let line = match side {
+                        "left" => joined(&[&word, &spare]),
+                        _ => joined(&[&spare, &word]),
+                    };
+                    let frame = decoder.line(line.as_bits()).unwrap();
+                    let name = format!("{parameters} {side} {bytes} bytes of {fill}");
+                    assert!(frame.ok(), "{name}: {:?}", frame.faults());
+                    assert_eq!(frame.values(), values, "{name}");
+                }
+            }
+        }
+    }
+}
+
+/// MPP "BISS-C": a capture may begin with any number of ones, and an encoder may take its time
+/// with the acknowledge.
+#[test]
+fn a_biss_line_with_any_idle_and_acknowledge_is_encoded_again() {
+    let mut noise = Noise::new(7);
+    let decoder = decoder("format=biss-c angle-bits=17");
+    for idle in [1, 2, 5, 40, 63, 64, 65, 130] {
+        for ack in [1, 2, 14, 64, 65, 130] {
+            let values = random_values(&mut noise, &decoder);
+            let word = text(decoder.encode(&values).as_bits());
+            // The profile's own preamble is one bit of idle and five of acknowledge.
+            let line = joined(&[&"1".repeat(idle), &"0".repeat(ack), &word[6..]]);
+            let frame = decoder.line(line.as_bits()).unwrap();
+            assert!(frame.ok(), "{idle} {ack}");
+            let found = frame.values();
+            assert_eq!((found.turns, found.angle), (values.turns, values.angle));
+            assert_eq!(frame.layout.encode(&found), line, "{idle} {ack}");
+        }
+    }
+}
+
+#[test]
+fn every_bit_of_a_long_acknowledge_of_biss_must_be_0() {
+    for ack in [1, 64, 65, 255] {
+        let decoder = decoder(&format!("format=biss-c ack-bits={ack}"));
+        let frame = decoder.encode(&Values::default());
+        for index in 1..=ack {
+            let mut flipped = frame.clone();
+            flipped.flip(index);
+            let holds = decoder.main_layout().holds(flipped.as_bits());
+            assert!(!holds, "bit {index} of {ack}");
+        }
+    }
+}
