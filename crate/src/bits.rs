@@ -166,12 +166,13 @@ impl BitString {
         self.write(Span::new(self.len - 1, 1), u64::from(bit));
     }
 
-    /// Puts the low bits of `value` into `span`; bits beyond the end are dropped.
+    /// Puts the low bits of `value` into `span`, its top bit into what is wider than 64; bits
+    /// beyond the end are dropped.
     pub fn write(&mut self, span: Span, value: u64) {
         for (offset, index) in (span.start..span.end()).rev().enumerate() {
             if index < self.len {
                 let at = 0x80 >> (index % 8);
-                if offset < 64 && (value >> offset) & 1 == 1 {
+                if (value >> offset.min(63)) & 1 == 1 {
                     self.bytes[index / 8] |= at;
                 } else {
                     self.bytes[index / 8] &= !at;

@@ -421,7 +421,7 @@ impl Decoder {
                 summary.bytes = bytes.len() as u64;
                 let mut framer = Framer::at_start();
                 framer.push(self, &bytes, &mut |piece| {
-                    piece_out(piece, &mut summary, sink)
+                    piece_out(piece, &mut summary, sink);
                 });
                 framer.finish(self, &mut |piece| piece_out(piece, &mut summary, sink));
             }

@@ -380,7 +380,7 @@ impl Profile {
         range("angle-bits", self.angle_bits, 1, limits.angle)?;
         range("turns-bits", self.turns_bits, 0, limits.turns)?;
         range("status-bits", self.status_bits, 0, 8)?;
-        range("ack-bits", self.ack_bits, 1, 255)?;
+        range("ack-bits", self.ack_bits, 1, 64)?;
         range("baud", self.baud, 1, 50_000_000)?;
         range("address", self.address, 0, 31)?;
         if self.format.parameters().contains(&"frame-bits") {

@@ -335,10 +335,9 @@ impl Session {
         let behind = echoed && self.holds_at(front);
         // Where both hold, the last byte must be explained as well.
         let found = match (plain, behind) {
-            (true, false) => Some(0),
-            (false, true) => Some(front),
             (true, true) if have > self.asked.reply => Some(front),
-            (true, true) => Some(0),
+            (true, _) => Some(0),
+            (false, true) => Some(front),
             (false, false) => None,
         };
         if let Some(offset) = found {

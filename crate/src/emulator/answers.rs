@@ -253,8 +253,7 @@ impl Emulator {
         self.talk.zero_count = 0;
         let count = self.talk.address_count;
         let right = match count {
-            0 => true,
-            9 => true,
+            0 | 9 => true,
             _ => address == 2 * count,
         };
         let answered = count > SILENT_COUNTS || self.talk.address_broken;

@@ -99,7 +99,9 @@ layout! {
 /// Bits of the data and the parity.
 const fn number(p: &Profile) -> u32 {
     let parity = !matches!(p.parity, Parity::None);
-    p.turns_bits + p.angle_bits + parity as u32
+    p.turns_bits
+        .saturating_add(p.angle_bits)
+        .saturating_add(parity as u32)
 }
 
 /// Columns that the left half of a fir-tree has beyond the turns.
@@ -131,7 +133,7 @@ const fn trailing(p: &Profile) -> u32 {
 #[must_use]
 pub const fn needed_bits(p: &Profile) -> u32 {
     match p.align {
-        Align::Tree => number(p) + left(p, 0),
+        Align::Tree => number(p).saturating_add(left(p, 0)),
         Align::Right => number(p),
     }
 }
@@ -144,9 +146,13 @@ pub const fn needed_bits(p: &Profile) -> u32 {
 pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
     let one = plain_shapes(&WORD, profile, bits)?;
     let word = profile.frame_bits as usize;
-    let spare = bits.len().saturating_sub(word);
-    // A number in wide bytes has zeros in front; a word of zeros says nothing either way.
-    let narrow = profile.justify == Justify::Right && (0..spare).all(|at| !bits.bit(at));
+    let around = match profile.justify {
+        Justify::Left => word..bits.len(),
+        Justify::Right => 0..bits.len().saturating_sub(word),
+    };
+    // A word in wide bytes has one level around it; a word of zeros says nothing either way.
+    let level = bits.bit(around.start);
+    let narrow = { around }.all(|at| bits.bit(at) == level);
     let times = (bits.len() + 1) / (word + 1);
     let rest = bits.len() + 1 - times * (word + 1);
     if times < 2 || rest >= 8 || (narrow && rest > 0) {

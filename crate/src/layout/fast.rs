@@ -80,7 +80,7 @@ impl Resolved {
         let none = self.syndrome(&BitString::zeros(self.len));
         let bytes = self.len / 8;
         let cut = bytes.saturating_sub(WORD);
-        self.fast = Some(Fast {
+        self.fast = Some(Box::new(Fast {
             none,
             last: self.sieve(cut..bytes, none),
             before: (cut > 0).then(|| self.sieve(0..cut, none)),
@@ -93,7 +93,7 @@ impl Resolved {
                 .or_else(|| self.named_error())
                 .unwrap_or_default(),
             warning: self.flag(Role::Warning, Active::High).unwrap_or_default(),
-        });
+        }));
         self
     }
 
@@ -189,7 +189,7 @@ impl Resolved {
     /// has not been sieved.
     #[inline(always)]
     pub(crate) fn passes_sieve(&self, bits: Bits<'_>) -> Option<bool> {
-        let fast = self.fast.as_ref()?;
+        let fast = self.fast.as_deref()?;
         if bits.len() != self.len {
             return None;
         }
@@ -214,7 +214,7 @@ impl Resolved {
     /// one that is judged as one word out of eight bytes.
     #[inline(always)]
     pub(crate) fn is_sound_word(&self, bytes: &[u8]) -> Option<bool> {
-        let fast = self.fast.as_ref().filter(|_| self.len <= WORD * 8)?;
+        let fast = self.fast.as_deref().filter(|_| self.len <= WORD * 8)?;
         let chunk = bytes.first_chunk::<WORD>()?;
         let word = bits::above(u64::from_be_bytes(*chunk), (WORD * 8 - self.len) as u32);
         let mut wrong = 0;
@@ -228,7 +228,7 @@ impl Resolved {
     /// sieved or holds no angle.
     #[inline]
     pub(crate) fn quick_position(&self, bits: Bits<'_>) -> Option<Reading> {
-        let fast = self.fast.as_ref().filter(|_| bits.len() == self.len)?;
+        let fast = self.fast.as_deref().filter(|_| bits.len() == self.len)?;
         let bytes = bits.bytes();
         let (before, last) = bytes.split_at(bytes.len().saturating_sub(WORD));
         let last = bits::word(last);

@@ -7,7 +7,7 @@ use crate::{
     format::Format,
     profile::Profile,
 };
-use alloc::vec::Vec;
+use alloc::{boxed::Box, vec::Vec};
 use core::ops::Range;
 
 /// What the widths of one frame depend on: the profile, and what was found around the data.
@@ -117,7 +117,7 @@ pub struct Resolved {
     parts: Vec<Part>,
     pub(super) coded: Option<(Coding, Span)>,
     /// What judges and reads many frames quickly.
-    pub(super) fast: Option<Fast>,
+    pub(super) fast: Option<Box<Fast>>,
 }
 
 impl Resolved {

@@ -334,7 +334,7 @@ fn bus_counts_follow_the_rules_of_the_manual() {
     // Set address: X 2 4 are silent, then a wrong address counts 1 and starts anew.
     let set = |address: u8| {
         let byte = 0x40 | address;
-        byte | (u8::from(byte.count_ones() % 2 == 0) << 7)
+        byte | (u8::from(byte.count_ones().is_multiple_of(2)) << 7)
     };
     assert_eq!(ask(set(21)), None);
     assert_eq!(ask(set(2)), None);
