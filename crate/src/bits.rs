@@ -268,6 +268,13 @@ pub const fn above(value: u64, place: u32) -> u64 {
     value.wrapping_shr(place)
 }
 
+/// `value` moved up by `place` bits, for places below 64.
+#[must_use]
+#[inline]
+pub const fn raised(value: u64, place: u32) -> u64 {
+    value.wrapping_shl(place)
+}
+
 /// `value` moved up so that its least significant bit stands at `place`.
 #[must_use]
 #[inline]

@@ -98,6 +98,13 @@ pub struct Summary {
     pub skipped: u64,
 }
 
+/// A byte that begins no frame.
+const NO_LEAD: Lead = Lead {
+    layout: u8::MAX,
+    request: false,
+    names: 0,
+};
+
 /// The shapes that a line of a dump can have, the likeliest first.
 ///
 /// Which one is meant is decided over all lines of a dump, by [`Decoder::dump`].
@@ -110,7 +117,7 @@ pub struct Decoder {
     /// T485: one a request; BUS: one an operation; ASI4: one a number of digits; else one.
     layouts: Vec<Resolved>,
     /// What each first byte says, for byte formats.
-    leads: Vec<Lead>,
+    leads: [Lead; 256],
 }
 
 /// What the first byte of a frame says.
@@ -161,10 +168,10 @@ impl Decoder {
         let mut decoder = Self {
             profile,
             layouts,
-            leads: Vec::new(),
+            leads: [NO_LEAD; 256],
         };
         if profile.format.medium() == Medium::Bytes {
-            decoder.leads = (0..=u8::MAX).map(|byte| decoder.lead(byte)).collect();
+            decoder.leads = core::array::from_fn(|byte| decoder.lead(byte as u8));
         }
         Ok(decoder)
     }
@@ -226,7 +233,7 @@ impl Decoder {
         if self.profile.format == Format::Asi4 {
             return self.layouts.get(asi4::digits(bytes)? - 1);
         }
-        let lead = self.leads.get(usize::from(*bytes.first()?))?;
+        let lead = self.leads[usize::from(*bytes.first()?)];
         self.layouts.get(usize::from(lead.layout))
     }
 
@@ -287,28 +294,18 @@ impl Decoder {
         layout.encode(&values)
     }
 
-    /// Whether `bytes` begin with a frame of this layout, and not with a request.
+    /// Whether `byte` begins a frame of the same layout as `like` does, and is no request.
     #[inline]
-    pub(crate) fn begins(&self, layout: &Resolved, bytes: &[u8]) -> bool {
-        let Some(first) = bytes.first() else {
-            return false;
-        };
-        let lead = self.leads.get(usize::from(*first));
-        lead.is_some_and(|lead| {
-            !lead.request
-                && self
-                    .layouts
-                    .get(usize::from(lead.layout))
-                    .is_some_and(|own| core::ptr::eq(own, layout))
-        })
+    pub(crate) const fn begins_alike(&self, byte: u8, like: u8) -> bool {
+        let lead = self.leads[byte as usize];
+        !lead.request && lead.layout == self.leads[like as usize].layout
     }
 
     /// Whether `byte` is a request that may stand before its reply in a dump.
     #[must_use]
     #[inline]
     pub fn is_request(&self, byte: u8) -> bool {
-        let lead = self.leads.get(usize::from(byte));
-        lead.is_some_and(|lead| lead.request)
+        self.leads[usize::from(byte)].request
     }
 
     /// Whether a reply begins with the byte that was asked.
@@ -319,8 +316,7 @@ impl Decoder {
 
     /// How much the first byte of a frame speaks for it beyond what its checks count, in bits.
     pub(crate) fn names(&self, first: u8) -> i32 {
-        let lead = self.leads.get(usize::from(first));
-        lead.map_or(0, |lead| lead.names.into())
+        self.leads[usize::from(first)].names.into()
     }
 
     /// Bytes of the longest frame.

@@ -291,7 +291,10 @@ impl Framer {
                 at += len;
                 // What follows is mostly the same kind of frame, which is judged here.
                 let next = &self.buffer[at..];
-                if !decoder.begins(layout, next) || layout.is_sound_word(next) != Some(true) {
+                let alike = next
+                    .first()
+                    .is_some_and(|byte| decoder.begins_alike(*byte, bytes[0]));
+                if !alike || layout.is_sound_word(next) != Some(true) {
                     break;
                 }
             }

@@ -56,12 +56,22 @@ struct Number {
     more: Vec<Take>,
 }
 
-/// One bit, and the level that asserts it; nothing asserts a bit that does not exist.
-#[derive(Clone, Copy, Debug, Default)]
+/// One bit, and the level that asserts it.
+#[derive(Clone, Copy, Debug)]
 struct Flag {
     at: Take,
     asserted: u64,
 }
+
+/// A flag that does not exist: no level asserts it.
+const NO_FLAG: Flag = Flag {
+    at: Take {
+        below: 0,
+        mask: 0,
+        place: 0,
+    },
+    asserted: u64::MAX,
+};
 
 impl Resolved {
     /// The same layout, prepared to judge and read many frames quickly; text and frames that are
@@ -91,8 +101,8 @@ impl Resolved {
                 .flag(Role::Error, Active::High)
                 .or_else(|| self.flag(Role::Valid, Active::Low))
                 .or_else(|| self.named_error())
-                .unwrap_or_default(),
-            warning: self.flag(Role::Warning, Active::High).unwrap_or_default(),
+                .unwrap_or(NO_FLAG),
+            warning: self.flag(Role::Warning, Active::High).unwrap_or(NO_FLAG),
         }));
         self
     }
@@ -230,18 +240,20 @@ impl Resolved {
     pub(crate) fn quick_position(&self, bits: Bits<'_>) -> Option<Reading> {
         let fast = self.fast.as_deref().filter(|_| bits.len() == self.len)?;
         let bytes = bits.bytes();
-        let (before, last) = bytes.split_at(bytes.len().saturating_sub(WORD));
-        let last = bits::word(last);
-        if before.is_empty() {
-            fast.position(self, |take| bits::above(last, take.below) & take.mask)
-        } else {
-            let before = bits::word(before);
-            // Parts of longer frames stand in one byte each, so none lies across the words.
-            fast.position(self, |take| match take.below.checked_sub(u64::BITS) {
-                Some(below) => bits::above(before, below) & take.mask,
-                None => bits::above(last, take.below) & take.mask,
-            })
+        if bytes.len() <= WORD {
+            let word = bits::word(bytes);
+            return fast.position(self, |take| bits::above(word, take.below) & take.mask);
         }
+        // Parts of longer frames stand in one byte each, so none lies across the words.
+        let (before, last) = bytes.split_at(bytes.len() - WORD);
+        let (before, last) = (bits::word(before), bits::word(last));
+        fast.position(self, |take| {
+            let (word, below) = match take.below.checked_sub(u64::BITS) {
+                Some(below) => (before, below),
+                None => (last, take.below),
+            };
+            bits::above(word, below) & take.mask
+        })
     }
 }
 
@@ -261,13 +273,12 @@ impl Fast {
         if !self.angle.exists {
             return None;
         }
+        let part = |take: &Take| bits::raised(read(take), take.place);
         let number = |number: &Number| {
-            let first = bits::placed(read(&number.first), number.first.place);
-            number.more.iter().fold(first, |sum, take| {
-                sum | bits::placed(read(take), take.place)
-            })
+            let first = part(&number.first);
+            number.more.iter().fold(first, |sum, take| sum | part(take))
         };
-        let is = |flag: &Flag| flag.at.mask != 0 && read(&flag.at) == flag.asserted;
+        let is = |flag: &Flag| read(&flag.at) == flag.asserted;
         Some(Reading {
             angle: number(&self.angle),
             angle_bits: layout.shape.profile.angle_bits,
