@@ -8,7 +8,11 @@
 //! - [`reading`]: what the shaft does, from good frames only;
 //! - [`explain`]: what the bits say, from any frame;
 //! - [`detect`]: what a dump may be, ranked by evidence;
-//! - [`session`]: the host's side of a conversation, [`emulator`] the encoder's.
+//! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
+//!   [`emulator`]: the encoder's side of it all.
+//!
+//! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
+//! that was chosen.
 //!
 //! Every layout fact stands in one table of [`format`], made by `layout!` ([`layout`]). The
 //! crate does no I/O, reads no clock and does not panic on any input.
@@ -23,6 +27,7 @@ pub mod decode;
 pub mod detect;
 pub mod dump;
 pub mod emulator;
+pub mod errata;
 pub mod explain;
 pub mod format;
 pub mod framing;

@@ -39,6 +39,30 @@ test('the demo speaks RS485 too, and goes on with another profile', async ({ pag
   await expect(page.getByRole('alert')).toContainText('99 is not in 1…24');
 });
 
+for (const format of ['bus', 'period', 'asi1', 'asi4']) {
+  test(`the demo speaks ${format}`, async ({ page }) => {
+    await page.goto(`/#/console?format=${format}`);
+    await expectDemo(page);
+    await until(page, 'frames-ok', (frames) => frames > 100);
+    expect(await number(page, 'frames-bad')).toBe(0);
+    const first = await number(page, 'angle');
+    await until(page, 'angle', (angle) => angle !== first);
+  });
+}
+
+test('parameters that few need are one click away', async ({ page }) => {
+  await page.goto('/#/decode?format=ssi-tree');
+  await page.locator('input[name=turns-bits]').fill('0');
+  await page.locator('input[name=turns-bits]').blur();
+  await expect(page.locator('input[name=frame-bits]')).toHaveValue('13');
+  await page.locator('select[name=code]').selectOption('binary');
+  await page.getByText('More').click();
+  await page.locator('select[name=justify]').selectOption('left');
+  for (const part of ['turns-bits=0', 'code=binary', 'justify=left', 'frame-bits=13']) {
+    expect(page.url()).toContain(part);
+  }
+});
+
 test('a link with a wrong parameter says what is wrong', async ({ page }) => {
   await page.goto('/#/console?format=t486');
   await expect(page.getByRole('alert')).toContainText('t486');

@@ -66,6 +66,46 @@ const parse = ({ protocol, params, expected }) => {
         error: expected.error,
         warning: expected.warning,
       };
+    case 'BUS':
+      return {
+        profile: { format: 'bus' },
+        ok: expected.crc_ok,
+        angle: expected.singleturn,
+        turns: expected.multiturn,
+        address: expected.addr,
+        operation: expected.op,
+        status: expected.status,
+      };
+    case 'ASI1':
+      return {
+        profile: { format: 'asi1', angleBits: 22 },
+        ok: expected.crc_ok,
+        angle: expected.pd,
+        valid: expected.pv === 1,
+        zeroDefault: expected.zpd === 1,
+        error: expected.pv === 0,
+      };
+    case 'SSI7':
+      return {
+        profile: { format: 'ssi7' },
+        ok: expected.parity_ok,
+        angle: expected.pd,
+        error: expected.alarm === 1,
+      };
+    case 'SSI fir-tree':
+      return expected.bits_gray_whole_word
+        ? {
+            profile: {
+              format: 'ssi-tree',
+              angleBits: params.pos_bits,
+              turnsBits: params.turn_bits,
+            },
+            text: expected.bits_gray_whole_word,
+            ok: true,
+            angle: expected.position,
+            turns: expected.turns,
+          }
+        : undefined;
     default:
       return undefined;
   }
@@ -81,7 +121,7 @@ const query = (profile) =>
     .join('&');
 
 test('the vectors are all here', () => {
-  expect(cases.length).toBe(6 + 12 + 5 + 4);
+  expect(cases.length).toBe(6 + 12 + 5 + 4 + 1 + 8 + 3 + 3);
 });
 
 for (const { id, text, profile, ...expected } of cases) {
@@ -107,6 +147,30 @@ for (const { id, text, profile, ...expected } of cases) {
     for (const [name, value] of Object.entries(expected)) {
       if (value !== undefined) expect(decoded.frames[0][name], name).toBe(value);
     }
+  });
+}
+
+const formats = ['ssi', 'biss-c', 'rs485', 't485', 'bus', 'period', 'asi1', 'asi4', 'ssi7', 'ssi-tree'];
+
+for (const format of formats) {
+  test(`the example of ${format} is read, explained and encoded again`, async ({ page }) => {
+    await page.goto(`/#/decode?format=${format}`);
+    await at(page, 'example').click();
+    const rows = at(page, 'dump-row');
+    await expect(rows.first()).toBeVisible();
+    const oks = await rows.evaluateAll((rows) => rows.map((row) => row.dataset.ok));
+    expect(oks.length).toBeGreaterThan(1);
+    expect(new Set(oks)).toEqual(new Set(['true']));
+    await expect(at(page, 'explain-field').first()).toBeVisible();
+    const same = await page.evaluate(async (format) => {
+      const scope = await import('./encoderscope.js');
+      const values = { turns: 0, angle: 1234, error: false };
+      const text = scope.encode({ format }, values);
+      const [frame] = scope.decode({ format }, text).frames;
+      return { ok: frame.ok, angle: frame.angle, notes: scope.explain({ format }, text).length };
+    }, format);
+    expect(same).toMatchObject({ ok: true, angle: 1234 });
+    expect(same.notes).toBeGreaterThan(1);
   });
 }
 
@@ -195,10 +259,10 @@ test('the JavaScript module keeps its names', async ({ page }) => {
       wrongProfile: thrown(() => scope.decode({ format: 'nothing' }, '')),
     };
   });
-  expect(seen.formats).toEqual(['biss-c', 'rs485', 't485']);
+  expect(seen.formats).toEqual(formats);
   expect(seen.back).toMatchObject({ ok: true, turns: 5, angle: 1193046, warning: true, error: false, status: 16 });
   expect(seen.notes).toEqual(['turns', 'angle', 'error', 'warning', 'status', 'crc']);
   expect(seen.model).toMatchObject({ format: 'rs485', angleBits: 24, turnsBits: 16, series: 'MPP' });
   expect(seen.wrongModel).toContain('part 6');
-  expect(seen.wrongProfile).toContain('known: biss-c rs485 t485');
+  expect(seen.wrongProfile).toContain(`known: ${formats.join(' ')}`);
 });

@@ -1,6 +1,7 @@
 /** Decodes, explains and encodes frames of absolute rotary encoders. */
 
-export type Format = 'biss-c' | 'rs485' | 't485';
+export type Format =
+  | 'ssi' | 'biss-c' | 'rs485' | 't485' | 'bus' | 'period' | 'asi1' | 'asi4' | 'ssi7' | 'ssi-tree';
 
 /** Parameters of an encoder; omitted ones take the format's default. */
 export interface Profile {
@@ -9,14 +10,32 @@ export interface Profile {
   model?: string;
   angleBits?: number;
   turnsBits?: number;
+  /** How the turn counter is read; `unsigned` unless said otherwise. */
+  turnsCode?: 'unsigned' | 'signed';
   /** BiSS-C. */
   statusBits?: number;
+  /** BiSS-C: the level of a status bit that says the condition is there. */
+  statusActive?: 'high' | 'low';
   /** BiSS-C. */
   ackBits?: number;
   /** RS485: the command whose replies are read. */
   command?: '0' | '1' | 'd' | 's' | 't';
+  /** BUS: address of the device, 0…31. */
+  address?: number;
+  /** SSI fir-tree: `gray` unless said otherwise. */
+  code?: 'gray' | 'binary';
+  /** SSI fir-tree: `tree` unless said otherwise. */
+  align?: 'tree' | 'right';
+  /** SSI fir-tree: bits of a word, 25, or 13 without turns. SSI7: 30. */
+  frameBits?: number;
+  /** SSI fir-tree: `none` unless said otherwise. BUS: `odd`. */
+  parity?: 'none' | 'even' | 'odd';
+  /** T485: whose meaning the alarm byte has. */
+  dialect?: 'mpp' | 'tamagawa';
+  /** ASI1: the top bits that are encoded; any are read. */
+  marker?: 'none' | 'first';
   baud?: number;
-  /** BiSS-C: `left` is an SPI capture, `right` a number. */
+  /** Bit formats: `left` is an SPI capture (the default of BiSS-C), `right` a number. */
   justify?: 'left' | 'right';
 }
 
@@ -46,6 +65,13 @@ export interface Frame {
   temperature?: number;
   /** rev/s */
   speed?: number;
+  /** ASI1: the position is valid. */
+  valid?: boolean;
+  /** ASI1: no zero has been set by the user. */
+  zeroDefault?: boolean;
+  /** BUS: the device that answers. */
+  address?: number;
+  /** T485: the data ID; BUS: 0 get, 1 set zero, 2 set address. */
   operation?: number;
   count?: number;
   enid?: number;
@@ -96,6 +122,10 @@ export interface Values {
   speed?: number;
   temperature?: number;
   count?: number;
+  valid?: boolean;
+  zeroDefault?: boolean;
+  address?: number;
+  /** Chooses between the frames of T485 and of BUS. */
   operation?: number;
   memoryAddress?: number;
   memoryData?: number;
@@ -119,7 +149,7 @@ export function detect(text: string): Candidate[];
 /** Explains one whole frame, field by field. */
 export function explain(profile: Profile, hexOrBits: string): Note[];
 
-/** The frame that says `values`, as hexadecimal digits. */
+/** The frame that says `values`: hexadecimal digits, or 0 and 1 where it is not whole bytes. */
 export function encode(profile: Profile, values: Values): string;
 
 /** The profile of an order code; throws with the part that is wrong. */

@@ -3,8 +3,10 @@
 //! `pty-encoder --format t485 --angle-bits 23 turning=0.5`: profile parameters, then settings.
 //! Prints the path of the pty's other end, then takes a setting a line from standard input:
 //! `turning=R` (revolutions per second), `still=TURNS`, `status=BITS`, `error=0|1`,
-//! `warning=0|1`, and the faults `echo=0|1`, `silent=0|1`, `flip=N`, `drop=N`, `insert=N`
-//! (N of 1000 reply bytes). The end of standard input pulls the plug.
+//! `warning=0|1`, `temperature=TENTHS`, and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
+//! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
+//! replies). The end of standard input pulls the plug. What a stream sends while nobody reads is
+//! lost.
 
 #[cfg(target_arch = "wasm32")]
 fn main() {}
@@ -23,7 +25,7 @@ mod native {
     use rustix::{
         event::{PollFd, PollFlags, Timespec, poll},
         fs::{Mode, OFlags, open},
-        io::{Errno, read, write},
+        io::{Errno, ioctl_fionbio, read, write},
         pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt},
         termios::{OptionalActions, tcgetattr, tcsetattr},
     };
@@ -40,6 +42,7 @@ mod native {
         }
 
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
+        ioctl_fionbio(&master, true)?;
         grantpt(&master)?;
         unlockpt(&master)?;
         let path = ptsname(&master, Vec::new())?;
@@ -90,6 +93,10 @@ mod native {
             "warning" => emulator.warning = value == "1",
             "echo" => emulator.faults.echo = value == "1",
             "silent" => emulator.faults.silent = value == "1",
+            "temperature" => emulator.temperature = value.parse()?,
+            "lose" => emulator.faults.lose = value.parse()?,
+            "late" => emulator.faults.late = value.parse()?,
+            "twice" => emulator.faults.twice = value.parse()?,
             "flip" => emulator.faults.flip = value.parse()?,
             "drop" => emulator.faults.drop = value.parse()?,
             "insert" => emulator.faults.insert = value.parse()?,
@@ -146,8 +153,11 @@ mod native {
 
     fn write_all(master: &OwnedFd, mut bytes: &[u8]) -> Result<(), Errno> {
         while !bytes.is_empty() {
-            let count = write(master, bytes)?;
-            bytes = &bytes[count..];
+            match write(master, bytes) {
+                Ok(count) => bytes = &bytes[count..],
+                Err(Errno::AGAIN) => return Ok(()),
+                Err(error) => return Err(error),
+            }
         }
         Ok(())
     }
