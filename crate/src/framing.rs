@@ -16,7 +16,7 @@
 //! The best phase wins when it leads clearly; otherwise its frame is *not sure*, and no
 //! reading comes out of it. A frame in the held phase that passes and does not end in 0 needs
 //! no weighing: that is the fast path. A stream without requests is joined only where a second
-//! frame follows the first. Text is framed by its line ends ([`text`]). All decisions depend on
+//! frame follows the first. Text is framed by its line ends. All decisions depend on
 //! the bytes alone, never on how they were cut.
 
 mod evidence;
