@@ -34,6 +34,8 @@ const UNUSED_BIT: i32 = 3;
 /// For: an identity that names the width, a preamble that is the profile's own.
 const NAMED: i32 = 6;
 const PREAMBLE: i32 = 4;
+/// For: the only width that an encoder of the manuals has.
+const OWN_WIDTH: i32 = 4;
 /// Less than this is chance.
 const CHANCE: i32 = 3;
 
@@ -208,13 +210,15 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     let mut named = false;
     let mut preamble = false;
     let mut check_bits = 0;
-    let mut asked = false;
+    let mut requests = 0;
     let mut addresses = BTreeSet::new();
     let summary = decoder.dump(dump, &mut |decoded| {
         let frame = match decoded {
             Decoded::Frame(frame) => frame,
-            Decoded::Skip { why, .. } => {
-                asked |= why == Why::Request;
+            Decoded::Skip { why, bits, .. } => {
+                if why == Why::Request {
+                    requests += bits.bytes().len() as u64;
+                }
                 return;
             }
         };
@@ -245,7 +249,7 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         return None;
     }
     // Polled replies are not a free-running stream, but nothing tells those without requests.
-    if profile.format == Format::Period && asked {
+    if profile.format == Format::Period && requests > 0 {
         return None;
     }
     let mut profile = profile;
@@ -266,11 +270,15 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     ));
     let proved = count.saturating_mul(check_bits);
     // A damaged dump is still a dump of its format: what is good in it keeps a quarter.
-    let against = summary.bad * FAILS as u64 + summary.skipped * SKIPPED as u64;
+    let strange = summary.skipped - requests;
+    let against = summary.bad * FAILS as u64 + strange * SKIPPED as u64;
     let against = i32::try_from(against).unwrap_or(i32::MAX);
     let mut score = proved - against.min(proved / 4 * 3);
-    if summary.skipped > 0 {
-        evidence.push(format!("{} bytes belong to no frame", summary.skipped));
+    if requests > 0 {
+        evidence.push(format!("{requests} requests stand between them"));
+    }
+    if strange > 0 {
+        evidence.push(format!("{strange} bytes belong to no frame"));
     }
     if !top_bit {
         score -= UNUSED_BIT;
@@ -287,6 +295,11 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
             "the encoder identity says {} bits",
             profile.angle_bits
         ));
+    }
+    let single = matches!(profile.format, Format::Asi1 | Format::Ssi7);
+    if single && profile == profile.format.default_profile() {
+        score += OWN_WIDTH;
+        evidence.push("the width of the IP-75".to_string());
     }
     let verdict = match score {
         _ if count > 1 && score >= CERTAIN => Verdict::Certain,

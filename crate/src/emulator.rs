@@ -36,6 +36,8 @@ const START_UP: Micros = 15_000;
 const ZERO_INPUT: Micros = 3_000_000;
 /// ASI1 sends 3.33 thousand packets a second (IP-75, 5.3.1).
 const ASI1_INTERVAL: Micros = 300;
+/// Frames of a stream are kept this long for a reader that is slow.
+const CATCH_UP: Micros = 1_000_000;
 /// A clocked word stays latched this long after its last bit (P+F article, t_m; IP-75, T_mu).
 const LATCHED: Micros = 20;
 
@@ -81,8 +83,8 @@ pub struct Emulator {
     off_at: Option<f64>,
     ready_at: Micros,
     talk: Talk,
-    /// When the next frame of a stream begins.
-    next_frame: Micros,
+    /// When the next frame of a stream begins; at once while nobody has listened.
+    next_frame: Option<Micros>,
     latched: Option<(Micros, BitString)>,
     wire: Wire,
 }
@@ -112,7 +114,7 @@ impl Emulator {
             off_at: None,
             ready_at: 0,
             talk: Talk::new(&profile),
-            next_frame: 0,
+            next_frame: None,
             latched: None,
             wire: Wire::new(),
         })
@@ -139,7 +141,7 @@ impl Emulator {
     /// When the next bytes are due.
     #[must_use]
     pub fn deadline(&self) -> Option<Micros> {
-        let stream = (self.is_streaming()).then_some(self.next_frame);
+        let stream = self.is_streaming().then_some(self.next_frame.unwrap_or(0));
         match (self.wire.deadline(), stream) {
             (Some(sent), Some(next)) => Some(sent.min(next)),
             (sent, next) => sent.or(next),
@@ -236,7 +238,7 @@ impl Emulator {
             self.turns_lost = self.counter == Counter::Battery && slip.is_none();
         }
         self.ready_at = now + START_UP;
-        self.next_frame = self.ready_at;
+        self.next_frame = Some(self.ready_at);
         self.zero_input = input.map(|input| (now + ZERO_INPUT, input));
         self.talk = self.talk.restarted(self.decoder.profile());
     }
@@ -314,18 +316,20 @@ impl Emulator {
             Format::Asi4 => asi4::INTERVAL,
             _ => ASI1_INTERVAL,
         };
+        // A stream that was held up does not catch up for longer than this.
+        let oldest = now.saturating_sub(CATCH_UP);
+        let mut next = self.next_frame.unwrap_or(now).max(oldest);
         if !self.is_streaming() {
-            // A stream that was held up does not catch up.
-            self.next_frame = self.next_frame.max(now);
+            self.next_frame = Some(next.max(now));
             return;
         }
-        while self.next_frame <= now {
-            let start = self.next_frame;
-            let frame = self.decoder.encode(&self.values(start)).into_bytes();
+        while next <= now {
+            let frame = self.decoder.encode(&self.values(next)).into_bytes();
             let baud = self.profile().baud;
-            self.wire.send(&self.faults, start, baud, &[], &frame);
-            self.next_frame += interval;
+            self.wire.send(&self.faults, next, baud, &[], &frame);
+            next += interval;
         }
+        self.next_frame = Some(next);
     }
 
     /// Lets a zero input act when its time has come.
