@@ -26,7 +26,7 @@ say "the core, native"
 cargo test -p encoderscope -p encoderscope-tests
 
 say "the core, in headless Chromium"
-wasm_cargo test -p encoderscope-tests --test core
+WASM_BINDGEN_TEST_TIMEOUT=600 wasm_cargo test --profile browser -p encoderscope-tests --test core
 
 say "the page"
 web/build.sh
