@@ -267,6 +267,8 @@ pub enum Stop {
     Unasked,
     /// The reply is not one, or has something around it: a fault of the line, or a second talker.
     BadReply,
+    /// The encoder says that it did not understand the command (T485).
+    Refused,
     /// The encoder counts differently: another command came in between.
     WrongCount {
         /// What it should have counted.
@@ -284,6 +286,7 @@ impl fmt::Display for Stop {
             Self::NoReply => f.write_str("no reply came"),
             Self::Unasked => f.write_str("something came where nothing should"),
             Self::BadReply => f.write_str("the reply is damaged, or somebody else is talking"),
+            Self::Refused => f.write_str("the encoder does not understand the command"),
             Self::WrongCount { expected, received } => write!(
                 f,
                 "the encoder counts {received} instead of {expected}: another command came between"

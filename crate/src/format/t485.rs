@@ -178,6 +178,9 @@ pub static STATUS_FIELD: &[StatusBit] = &[
     },
 ];
 
+/// The bits of the status field that say that the request was not understood.
+pub const NOT_UNDERSTOOD: u8 = 0xc0;
+
 /// The alarm byte of MPP and PT (manual: E).
 pub static ALARM: &[StatusBit] = &[
     StatusBit {

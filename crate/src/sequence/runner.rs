@@ -4,7 +4,7 @@ use super::{Change, Expect, Holds, Script, Step, Stop};
 use crate::{
     bits::Bits,
     decode::Decoder,
-    format::rs485::Command,
+    format::{Format, rs485::Command, t485::NOT_UNDERSTOOD},
     layout::{Resolved, Shape},
     reading::Values,
     sequence::Send,
@@ -240,9 +240,16 @@ impl Runner {
                 Err(Stop::WrongCount { expected, received })
             }
             (Some(_), None) => Err(Stop::BadReply),
+            _ if self.is_refusal(&values) => Err(Stop::Refused),
             _ if self.contradicts(&values) => Err(Stop::BadReply),
             _ => Ok(Some(values)),
         }
+    }
+
+    /// Whether a reply says that the command was not understood.
+    fn is_refusal(&self, values: &Values) -> bool {
+        let t485 = self.decoder.profile().format == Format::T485;
+        t485 && values.status.unwrap_or(0) & NOT_UNDERSTOOD != 0
     }
 
     /// Whether a reply about the EEPROM names another cell, or another byte once it is written.
