@@ -12,6 +12,9 @@ use crate::{
 };
 use alloc::{collections::VecDeque, vec::Vec};
 
+/// At this count an encoder acts.
+const TEN: u8 = 10;
+
 /// What a running sequence has to say.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
@@ -279,9 +282,12 @@ impl Runner {
     fn end(&mut self, stop: Option<Stop>) {
         let acts = self.total() - 2;
         let out = self.state != State::Ended && matches!(self.state, State::Waiting(_));
-        // The encoder acts on the command `acts`; its right answer says that it did.
+        // The encoder acts on the command `acts`; its right answer says that it did. Commands of
+        // somebody else may have made it count to ten before.
+        let counted = matches!(stop, Some(Stop::WrongCount { received: TEN.., .. }));
         let holds = match self.at {
             at if at > acts => Holds::New,
+            _ if counted => Holds::Unknown,
             at if at == acts && out => match stop {
                 Some(Stop::WrongCount { .. }) => Holds::Old,
                 _ => Holds::Unknown,
