@@ -44,7 +44,7 @@ for broken in "$work"/broken/*; do
 done
 ((status == 0)) || exit $status
 
-"${fuzz[@]}" -set_cover_merge=1 "$work/least" "$work/seeds" "$work/found" 2>"$work/merge.log"
+"${fuzz[@]}" -set_cover_merge=1 -use_counters=0 "$work/least" "$work/seeds" "$work/found" 2>"$work/merge.log"
 perl -e '($corpus, @files) = @ARGV;
   open F, "<", $corpus; while (<F>) { if (/^#/) { push @kept, $_; push @kept, scalar <F> } }
   for (@files) { open G, "<", $_; local $/; push @least, unpack("H*", <G>) . "\n" }

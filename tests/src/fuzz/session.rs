@@ -63,8 +63,10 @@ struct Run {
     ended: bool,
     /// Bytes that are not the encoder's own have come since the last command.
     tainted: bool,
-    /// They were taken for a reply, or somebody else had a hand in it: nothing follows.
+    /// They were taken for a reply, or the encoder was changed by hand: nothing follows.
     void: bool,
+    /// Somebody else has sent commands.
+    joined: bool,
     /// The power was off meanwhile.
     cycled: bool,
 }
@@ -203,7 +205,9 @@ impl Line {
                 for _ in 0..=how {
                     self.bus.handle_input(self.now, bytes);
                 }
-                self.void();
+                if let Some(run) = &mut self.run {
+                    run.joined = true;
+                }
                 self.held = self.holds();
             }
             13 => {
@@ -306,6 +310,7 @@ impl Line {
             ended: false,
             tainted: false,
             void: addresses.len() < self.bus.devices.len(),
+            joined: false,
             cycled: false,
         });
     }
@@ -447,7 +452,8 @@ impl Line {
                 // The reply to a reset of T485 does not count: what an encoder has forgotten
                 // when it loses its power shows nowhere.
                 run.void |= run.cycled && self.profile().format == Format::T485;
-                if run.void {
+                let acted = matches!(stop, Some(Stop::WrongCount { received: 10.., .. }));
+                if run.void || run.joined && !acted {
                     return;
                 }
                 let now = match run.change {
