@@ -9,7 +9,7 @@ use encoderscope::{
 };
 
 /// More is not looked at: the slow checks are tried at every place.
-const LONGEST: usize = 4096;
+const LONGEST: usize = 1024;
 
 /// A stream of bytes, cut anyhow.
 ///

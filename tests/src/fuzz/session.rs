@@ -15,8 +15,9 @@ const BUDGET: usize = 1_500;
 const STEP: usize = 200;
 /// How often a host may want to act at one moment.
 const SPINS: usize = 4;
-/// The longest jump of the clock where an encoder sends all the time.
-const STREAM_JUMP: Micros = 1_000_000;
+/// The longest jump of the clock, and where an encoder sends all the time.
+const JUMP: Micros = 1 << 40;
+const STREAM_JUMP: Micros = 200_000;
 /// Bytes that a session holds at most before it says what they are.
 const HELD: usize = 64;
 const HELD_OF_STREAM: usize = 512;
@@ -149,6 +150,10 @@ impl Line {
 
     fn is_stream(&self) -> bool {
         self.profile().format.spec().link == Link::Stream
+    }
+
+    fn longest(&self) -> Micros {
+        if self.is_stream() { STREAM_JUMP } else { JUMP }
     }
 
     fn device(&mut self) -> &mut Emulator {
@@ -316,7 +321,7 @@ impl Line {
     }
 
     fn run_for(&mut self, time: Micros) {
-        let until = self.now + time;
+        let until = self.now + time.min(self.longest());
         let mut spins = 0;
         for _ in 0..STEP.min(self.budget) {
             self.budget -= 1;
