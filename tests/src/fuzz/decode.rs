@@ -171,8 +171,10 @@ fn numbers(decoder: &Decoder, input: &mut Input<'_>) {
 
 /// A master clocks an emulated encoder, too short, too long or as it should.
 fn clocked(decoder: &Decoder, input: &mut Input<'_>) {
+    // The least step of a number near 1, and less of it.
+    let tiny = f64::EPSILON / 16.0;
     let shaft = Shaft {
-        start: f64::from(input.word() as i16) / 256.0,
+        start: f64::from(input.word() as i16) / 256.0 + f64::from(input.byte() as i8) * tiny,
         speed: f64::from(input.byte() as i8) / 16.0,
         sway: f64::from(input.byte()) / 16.0,
         period: 1.0,
