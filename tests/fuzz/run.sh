@@ -40,14 +40,15 @@ if ((seconds > 0)); then
     status=$?
 fi
 for broken in "$work"/broken/*; do
-  [[ -e $broken ]] && echo "$broken:" && xxd -p -c 0 "$broken"
+  [[ -e $broken ]] || continue
+  perl -e 'print "$ARGV[0]:\n"; open F, "<", shift; local $/; print unpack("H*", <F>), "\n"' "$broken"
 done
 ((status == 0)) || exit $status
 
 "${fuzz[@]}" -set_cover_merge=1 -use_counters=0 "$work/least" "$work/seeds" "$work/found" 2>"$work/merge.log"
 perl -e '($corpus, @files) = @ARGV;
-  open F, "<", $corpus; while (<F>) { if (/^#/) { push @kept, $_; push @kept, scalar <F> } }
+  open F, "<", $corpus; while (<F>) { if (/^#/) { push @kept, $_, scalar <F>; $known{$kept[-1]} = 1 } }
   for (@files) { open G, "<", $_; local $/; push @least, unpack("H*", <G>) . "\n" }
   open F, ">", $corpus;
-  print F @kept, sort { length $a <=> length $b or $a cmp $b } @least' "$corpus" "$work"/least/*
+  print F @kept, sort { length $a <=> length $b or $a cmp $b } grep { !$known{$_} } @least' "$corpus" "$work"/least/*
 wc -lc "$corpus"
