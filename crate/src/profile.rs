@@ -368,7 +368,9 @@ impl Profile {
     pub fn check(&self) -> Result<(), ProfileError> {
         let limits = self.format.limits();
         let range = |name, value: u32, low: u32, high: u32| {
-            if (low..=high).contains(&value) {
+            let used = matches!(name, "angle-bits" | "turns-bits")
+                || self.format.parameters().contains(&name);
+            if !used || (low..=high).contains(&value) {
                 Ok(())
             } else {
                 Err(error(
@@ -383,13 +385,11 @@ impl Profile {
         range("ack-bits", self.ack_bits, 1, 64)?;
         range("baud", self.baud, 1, 50_000_000)?;
         range("address", self.address, 0, 31)?;
-        if self.format.parameters().contains(&"frame-bits") {
-            let low = match self.format {
-                Format::SsiTree => ssi_tree::needed_bits(self),
-                _ => limits.frame.0,
-            };
-            range("frame-bits", self.frame_bits, low, limits.frame.1)?;
-        }
+        let shortest = match self.format {
+            Format::SsiTree => ssi_tree::needed_bits(self),
+            _ => limits.frame.0,
+        };
+        range("frame-bits", self.frame_bits, shortest, limits.frame.1)?;
         if self.angle_bits + self.turns_bits > limits.together {
             return Err(error(
                 "turns-bits",

@@ -148,7 +148,7 @@ impl Session {
         Ok(Self::with(decoder, polls, interval))
     }
 
-    /// A session that reads several BUS devices in turn.
+    /// A session that reads several BUS devices in turn; with none it only waits to be asked.
     ///
     /// # Errors
     ///
@@ -185,8 +185,20 @@ impl Session {
     }
 
     /// Asks once, before the next poll; the answer is a [`Output::Frame`] like any other.
-    pub fn ask(&mut self, ask: Ask) {
+    ///
+    /// # Errors
+    ///
+    /// The request belongs to another format, in which its bytes may mean anything.
+    pub fn ask(&mut self, ask: Ask) -> Result<(), Refusal> {
+        let format = self.decoder.profile().format;
+        if ask.format != Some(format) {
+            return Err(Refusal::NotOf(format));
+        }
         self.once.push_back(ask);
+        if let State::Idle(Micros::MAX) = self.state {
+            self.state = State::Idle(0);
+        }
+        Ok(())
     }
 
     /// The decoder that reads the replies.
@@ -263,14 +275,11 @@ impl Session {
             }
             State::Fresh => self.state = State::Draining(now + QUIET),
             State::Idle(_) | State::Draining(_) => {
-                self.asked = match self.once.pop_front() {
-                    Some(ask) => ask,
-                    None => {
-                        let ask = self.polls.get(self.turn).cloned();
-                        self.turn = (self.turn + 1) % self.polls.len().max(1);
-                        ask.unwrap_or_default()
-                    }
+                let Some(ask) = self.next_ask() else {
+                    self.state = State::Idle(Micros::MAX);
+                    return;
                 };
+                self.asked = ask;
                 let request = self.asked.bytes.clone();
                 let bits = 10 * (self.asked.reply + 2 * request.len()) as u64;
                 let on_wire = bits * 1_000_000 / u64::from(self.decoder.profile().baud);
@@ -282,6 +291,15 @@ impl Session {
             }
             State::Waiting { sent, .. } => self.judge(now, sent),
         }
+    }
+
+    fn next_ask(&mut self) -> Option<Ask> {
+        if let Some(ask) = self.once.pop_front() {
+            return Some(ask);
+        }
+        let ask = self.polls.get(self.turn).cloned()?;
+        self.turn = (self.turn + 1) % self.polls.len();
+        Some(ask)
     }
 
     fn is_stream(&self) -> bool {

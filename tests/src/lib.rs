@@ -1,5 +1,7 @@
 //! What the tests of the core share.
 
+pub mod fuzz;
+
 use encoderscope::{
     decode::{Decoded, Decoder},
     dump::{self, Dump},

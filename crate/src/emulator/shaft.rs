@@ -67,12 +67,15 @@ fn swing(phase: f64) -> f64 {
     }
 }
 
-/// Whole turns and the part of a turn, which is never negative.
+/// Whole turns and the part of a turn, which is never negative and less than 1.
 pub(super) fn split(turns: f64) -> (i64, f64) {
     let whole = turns as i64;
     let part = turns - whole as f64;
-    if part < 0.0 {
+    // A hair below a whole turn the sum is rounded to 1.
+    if part < 0.0 && part + 1.0 < 1.0 {
         (whole - 1, part + 1.0)
+    } else if part < 0.0 {
+        (whole, 0.0)
     } else {
         (whole, part)
     }

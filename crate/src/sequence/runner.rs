@@ -11,6 +11,9 @@ use crate::{
 };
 use alloc::{collections::VecDeque, vec::Vec};
 
+/// At this count an encoder acts.
+const TEN: u8 = 10;
+
 /// What a running sequence has to say.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
@@ -283,6 +286,8 @@ impl Runner {
         let counted = self.script.proof == Proof::Count;
         let holds = match stop {
             None => self.proven(),
+            // Commands of somebody else may have made it count to the end before.
+            Some(Stop::WrongCount { received, .. }) if received >= TEN => Holds::Unknown,
             Some(_) if self.at > acts && counted => Holds::New,
             Some(_) if self.at > acts => Holds::Unknown,
             Some(Stop::WrongCount { .. } | Stop::NotUnderstood) => Holds::Old,

@@ -18,6 +18,8 @@ use core::fmt;
 /// A request that reads, and the reply it should get.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ask {
+    /// The format it belongs to.
+    pub(super) format: Option<Format>,
     /// The request.
     pub(super) bytes: Vec<u8>,
     /// Bytes of the reply.
@@ -130,6 +132,7 @@ impl Ask {
             .layout(&bytes)
             .ok_or(Refusal::NotOf(decoder.profile().format))?;
         Ok(Self {
+            format: Some(decoder.profile().format),
             reply: layout.len / 8,
             echoes: decoder.echoes(),
             memory: None,

@@ -206,7 +206,7 @@ fn every_tamagawa_request_that_reads_is_answered() {
             let asked = Ask::t485(&decoder, *request, 0x21);
             match request.changes_encoder() {
                 true => assert!(asked.is_err()),
-                false => session.ask(asked.unwrap()),
+                false => session.ask(asked.unwrap()).unwrap(),
             }
         }
         let mut bus = Bus {

@@ -8,6 +8,7 @@ mod detection;
 mod dumps;
 mod encoders;
 mod framing;
+mod fuzz;
 mod laws;
 mod laws_asi;
 mod laws_bits;
