@@ -205,3 +205,26 @@ fn names_of_formats_are_read_back() {
         assert_eq!(format.default_profile().check(), Ok(()));
     }
 }
+
+#[test]
+fn every_interface_letter_of_an_order_code_has_its_format() {
+    for (letter, format, turns) in [
+        ("S", Format::Ssi, ""),
+        ("B", Format::BissC, "BM"),
+        ("R", Format::Rs485, "M"),
+        ("A", Format::Rs485, "FM"),
+        ("T", Format::T485, "BM"),
+        ("D", Format::Bus, "M"),
+        ("P", Format::Period, ""),
+    ] {
+        let code = format!("MPP-20-30-A-23{turns}-{letter}-N-A-M");
+        let profile = encoderscope::model::parse(&code).unwrap().profile;
+        let turns_bits = if turns.is_empty() { 0 } else { 16 };
+        assert_eq!(
+            (profile.format, profile.angle_bits, profile.turns_bits),
+            (format, 23, turns_bits),
+            "{code}"
+        );
+        assert_eq!(profile.check(), Ok(()), "{code}");
+    }
+}
