@@ -320,7 +320,7 @@ impl fmt::Display for Stop {
                 "the encoder counts {received} instead of {expected}: another command came between"
             ),
             Self::NotUnderstood => f.write_str("the encoder does not know this command"),
-            Self::Asked => f.write_str("stopped"),
+            Self::Asked => f.write_str("it was broken off"),
         }
     }
 }

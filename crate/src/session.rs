@@ -201,6 +201,14 @@ impl Session {
         Ok(())
     }
 
+    /// Lets the line rest: what has come of a reply is reported as skipped, and the next request
+    /// waits until the line has been quiet.
+    pub fn rest(&mut self) {
+        let bytes = core::mem::take(&mut self.received);
+        self.skip(&bytes, Why::NoFrame);
+        self.state = State::Fresh;
+    }
+
     /// The decoder that reads the replies.
     #[must_use]
     pub const fn decoder(&self) -> &Decoder {

@@ -1,30 +1,27 @@
 //! The engine: drives a session over a port or against the built-in encoder, and keeps what
 //! the page shows. It runs in a dedicated worker, or on the page where it must.
 
+mod run;
+
 use crate::{
     browser::{Timer, error_text, now},
     link,
-    message::{FromEngine, Link, PortId, ToEngine},
+    message::{FromEngine, Link, PortId, STILL, Setting, ToEngine},
     serial::{Port, Read, Reader},
     tally::Tally,
 };
 use encoderscope::{
     decode::Decoder,
     emulator::{Emulator, Shaft},
-    framing::Why,
-    session::{Micros, Output, Session},
+    sequence::Runner,
+    session::{Micros, Session},
 };
+use run::{Run, Wire};
 use std::{cell::RefCell, rc::Rc};
 use wasm_bindgen::JsValue;
 
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
-/// Requests without a reply after which the link is called silent.
-const SILENT_AFTER: u32 = 3;
-/// Frames with a fault in a row after which the link is called failing.
-const FAILING_AFTER: u32 = 10;
-/// Bytes without a request after which the encoder is called free-running.
-const UNASKED_AFTER: usize = 100;
 
 /// The engine; clones share one state.
 #[derive(Clone)]
@@ -50,17 +47,6 @@ struct State {
     generation: u32,
 }
 
-/// An open link.
-struct Run {
-    session: Session,
-    since: Micros,
-    wire: Wire,
-    silent: u32,
-    failing: u32,
-    /// Bytes that came unasked since the last good frame.
-    unasked: usize,
-}
-
 /// How reading goes on.
 enum Next {
     /// With the same reader.
@@ -69,11 +55,6 @@ enum Next {
     Reader,
     /// Not at all.
     Stop,
-}
-
-enum Wire {
-    Port { port: Port, reader: Option<Reader> },
-    Demo(Box<Emulator>),
 }
 
 impl std::fmt::Debug for Engine {
@@ -116,13 +97,19 @@ impl Engine {
     /// Does what the page asks.
     pub fn handle(&self, message: ToEngine) {
         let mut state = self.state.borrow_mut();
-        if message == ToEngine::Next {
-            state.wanted = true;
-            return state.pump();
+        match message {
+            ToEngine::Next => state.wanted = true,
+            ToEngine::Set(setting) => state.begin(setting),
+            ToEngine::StopSetting => state.stop(),
+            ToEngine::ForgetSetting => state.tally.forget_progress(),
+            ToEngine::Turn(speed) => state.turn(speed),
+            ToEngine::Open { .. } | ToEngine::Demo { .. } | ToEngine::Close => {
+                state.asked = Some(message);
+                drop(state);
+                return self.kick();
+            }
         }
-        state.asked = Some(message);
-        drop(state);
-        self.kick();
+        state.pump();
     }
 
     /// Starts doing what has been asked, unless that is being done; of what is asked meanwhile,
@@ -151,7 +138,7 @@ impl Engine {
                 }
                 ToEngine::Open { port, profile } => self.begin_open(port, &profile),
                 ToEngine::Demo { profile } => self.demo(&profile),
-                ToEngine::Close | ToEngine::Next => self.set_link(Link::Closed),
+                _ => self.set_link(Link::Closed),
             }
         }
         self.state.borrow_mut().busy = false;
@@ -169,7 +156,11 @@ impl Engine {
         let run = {
             let mut state = self.state.borrow_mut();
             state.generation += 1;
-            state.run.take()
+            let State { run, tally, .. } = &mut *state;
+            if let Some(run) = run {
+                run.abandon(tally);
+            }
+            run.take()
         };
         if let Some(Run {
             wire: Wire::Port { port, reader },
@@ -206,19 +197,21 @@ impl Engine {
         match made {
             Ok((session, decoder, emulator)) => {
                 let wire = Wire::Demo(Box::new(emulator));
-                self.start(session, decoder, wire);
+                self.start(session, decoder, wire, DEMO_INTERVAL);
             }
             Err(reason) => self.set_link(Link::Unfit { reason }),
         }
     }
 
-    fn start(&self, session: Session, decoder: Decoder, wire: Wire) {
+    fn start(&self, session: Session, decoder: Decoder, wire: Wire, interval: Micros) {
         let mut state = self.state.borrow_mut();
         state.tally = Tally::new(now());
         state.tally.start(decoder);
         state.run = Some(Run {
             session,
-            since: now(),
+            interval,
+            setting: None,
+            lived: now(),
             wire,
             silent: 0,
             failing: 0,
@@ -247,7 +240,7 @@ impl Engine {
             match opened {
                 Ok(port) if current => {
                     engine.state.borrow_mut().opening = false;
-                    engine.start(session, decoder, Wire::Port { port, reader: None });
+                    engine.start(session, decoder, Wire::Port { port, reader: None }, 0);
                     engine.read(generation).await;
                 }
                 Ok(port) => {
@@ -307,9 +300,10 @@ impl Engine {
         match read {
             Read::Bytes(bytes) => {
                 let now = now();
-                state.tally.received(bytes.len());
-                if let Some(run) = &mut state.run {
-                    run.session.handle_input(now, &bytes);
+                let State { run, tally, .. } = &mut *state;
+                tally.received(bytes.len());
+                if let Some(run) = run {
+                    run.take(now, &bytes, tally);
                 }
                 state.pump();
                 Next::Read
@@ -350,6 +344,50 @@ fn refused(error: &JsValue) -> Link {
 }
 
 impl State {
+    /// Begins a sequence with the encoder that is being read.
+    fn begin(&mut self, setting: Setting) {
+        let Some(run) = &mut self.run else {
+            return self.tally.refuse(setting, "Nothing is connected.");
+        };
+        if run.setting.is_some() {
+            return;
+        }
+        let still = self.tally.moved(now()).is_some_and(|moved| moved < STILL);
+        if setting.needs_rest() && !still {
+            let why = "The shaft must stand still for a second. Nothing was sent.";
+            return self.tally.refuse(setting, why);
+        }
+        match Runner::new(run.session.decoder(), setting.change(), now()) {
+            Some(runner) => {
+                run.session.rest();
+                self.tally.begin(setting, runner.total());
+                run.setting = Some((setting, runner));
+            }
+            None => self.tally.refuse(
+                setting,
+                "This encoder has no such sequence. Nothing was sent.",
+            ),
+        }
+    }
+
+    /// Turns the shaft of the built-in encoder.
+    fn turn(&mut self, speed: f64) {
+        if let Some(Run {
+            wire: Wire::Demo(emulator),
+            ..
+        }) = &mut self.run
+        {
+            emulator.shaft = emulator.shaft.going_on(now(), speed);
+        }
+    }
+
+    /// Ends a sequence before its next command.
+    fn stop(&mut self) {
+        if let Some((_, runner)) = self.run.as_mut().and_then(|run| run.setting.as_mut()) {
+            runner.stop();
+        }
+    }
+
     /// Lets the session speak, answers for the built-in encoder, and posts a snapshot.
     fn pump(&mut self) {
         let now = now();
@@ -357,11 +395,11 @@ impl State {
         if let Some(run) = &mut self.run {
             let link = run.advance(now, &mut self.tally);
             wake = Some(match &run.wire {
-                Wire::Port { .. } => run.session.deadline(),
+                Wire::Port { .. } => run.deadline(),
                 Wire::Demo(emulator) => emulator
                     .deadline()
                     .unwrap_or(Micros::MAX)
-                    .min(run.session.deadline()),
+                    .min(run.deadline()),
             });
             if let Some(link) = link {
                 self.link = link;
@@ -378,85 +416,6 @@ impl State {
                 snapshot.rate = 0.0;
             }
             (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
-        }
-    }
-}
-
-impl Run {
-    /// Runs up to `now`; returns how the link is when that has become clear.
-    fn advance(&mut self, now: Micros, tally: &mut Tally) -> Option<Link> {
-        let mut link = None;
-        // The built-in encoder lives in virtual time, which catches up here; after a pause of
-        // the tab it does not replay more than a second.
-        let oldest = now.saturating_sub(1_000_000).max(self.since);
-        loop {
-            let mut idle = true;
-            let at = match &mut self.wire {
-                Wire::Port { .. } => now,
-                Wire::Demo(emulator) => {
-                    let next = emulator
-                        .deadline()
-                        .unwrap_or(Micros::MAX)
-                        .min(self.session.deadline());
-                    let at = next.clamp(oldest, now);
-                    if let Some(bytes) = emulator.poll_output(at) {
-                        tally.received(bytes.len());
-                        self.session.handle_input(at, &bytes);
-                        idle = false;
-                    }
-                    at
-                }
-            };
-            if self.session.deadline() <= at {
-                self.session.handle_timeout(at);
-                idle = false;
-            }
-            while let Some(output) = self.session.poll_output() {
-                idle = false;
-                if let Output::Transmit(bytes) = &output {
-                    match &mut self.wire {
-                        Wire::Port { port, .. } => port.write(bytes),
-                        Wire::Demo(emulator) => emulator.handle_input(at, bytes),
-                    }
-                }
-                link = self.judge(&output, tally.take(at, &output)).or(link);
-            }
-            tally.echo(self.session.echo());
-            if idle {
-                return link;
-            }
-        }
-    }
-
-    fn judge(&mut self, output: &Output, good: bool) -> Option<Link> {
-        match output {
-            Output::Frame { .. } if good => {
-                self.silent = 0;
-                self.failing = 0;
-                self.unasked = 0;
-                Some(Link::Reading)
-            }
-            Output::Frame { .. }
-            | Output::Skip {
-                why: Why::Truncated { .. },
-                ..
-            } => {
-                self.silent = 0;
-                self.failing += 1;
-                (self.failing >= FAILING_AFTER).then_some(Link::Failing)
-            }
-            Output::Silent { echo } => {
-                self.silent += 1;
-                (self.silent >= SILENT_AFTER).then_some(Link::Silent { echo: *echo })
-            }
-            Output::Skip {
-                why: Why::Unasked,
-                bytes,
-            } => {
-                self.unasked += bytes.len();
-                (self.unasked >= UNASKED_AFTER).then_some(Link::Unasked)
-            }
-            Output::Skip { .. } | Output::Transmit(_) => None,
         }
     }
 }

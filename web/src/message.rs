@@ -3,6 +3,7 @@
 //! The engine lives in a dedicated worker, or on the page where the browser has no serial in
 //! workers; either way these are the messages.
 
+use encoderscope::sequence::Change;
 use serde::{Deserialize, Serialize};
 
 /// From the page to the engine.
@@ -20,10 +21,79 @@ pub enum ToEngine {
         /// The profile, as the parameters of a link.
         profile: String,
     },
+    /// Change the encoder that is being read: begin a sequence.
+    Set(Setting),
+    /// End the sequence before its next command.
+    StopSetting,
+    /// Take the outcome of the last sequence off the page.
+    ForgetSetting,
+    /// Turn the shaft of the built-in encoder evenly, in revolutions per second.
+    Turn(f64),
     /// Stop and close the port.
     Close,
     /// The page has drawn the last snapshot and wants the next.
     Next,
+}
+
+/// What is to be changed in an encoder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Setting {
+    /// The present position becomes 0.
+    Zero,
+    /// The present angle becomes 0.
+    ResetAngle,
+    /// The turns become 0.
+    ResetTurns,
+    /// The errors are cleared.
+    ResetErrors,
+    /// The address on the bus.
+    Address(u8),
+}
+
+impl Setting {
+    /// The sequence that makes it.
+    #[must_use]
+    pub const fn change(self) -> Change {
+        match self {
+            Self::Zero => Change::Zero,
+            Self::ResetAngle => Change::ResetAngle,
+            Self::ResetTurns => Change::ResetTurns,
+            Self::ResetErrors => Change::ResetErrors,
+            Self::Address(address) => Change::Address(address),
+        }
+    }
+
+    /// Whether the shaft must stand still meanwhile.
+    #[must_use]
+    pub const fn needs_rest(self) -> bool {
+        matches!(self, Self::Zero | Self::ResetAngle)
+    }
+}
+
+/// A sequence that runs, or has run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Progress {
+    /// What is being changed.
+    pub setting: Setting,
+    /// Commands done.
+    pub done: u32,
+    /// Commands in all.
+    pub total: u32,
+    /// What the encoder has counted.
+    pub count: Option<u8>,
+    /// The position before.
+    pub before: Option<Shown>,
+    /// How it ended.
+    pub outcome: Option<Outcome>,
+}
+
+/// How a sequence ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Whether the change was made, where that is known.
+    pub changed: Option<bool>,
+    /// What happened and what the encoder holds, in words.
+    pub text: String,
 }
 
 /// From the engine to the page.
@@ -115,6 +185,9 @@ impl Link {
     }
 }
 
+/// The shaft stands still when it moves by less than this within a second, in turns: 0.1°.
+pub const STILL: f64 = 1.0 / 3600.0;
+
 /// What the page shows of the link.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
@@ -136,6 +209,10 @@ pub struct Snapshot {
     pub echo: Option<bool>,
     /// The last frames, newest first.
     pub log: Vec<Entry>,
+    /// How far the shaft has moved within the last second, in turns, once that is known.
+    pub moved: Option<f64>,
+    /// The sequence that runs or has run last.
+    pub progress: Option<Progress>,
 }
 
 /// A good reading.
@@ -174,7 +251,8 @@ pub struct Lamp {
     pub seen: f64,
 }
 
-/// Counts since the link was opened; bytes in = bytes in frames + skipped + not yet judged.
+/// Counts since the link was opened; bytes in = bytes in frames + skipped + in sequences +
+/// not yet judged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Good frames.
@@ -187,6 +265,8 @@ pub struct Counts {
     pub framed: f64,
     /// Bytes in no frame, echoes included.
     pub skipped: f64,
+    /// Bytes that came while a sequence ran.
+    pub set: f64,
     /// Requests without a reply.
     pub silent: f64,
     /// Break, framing, parity and overrun errors of the port.

@@ -1,10 +1,11 @@
 //! What the engine keeps of a link: counts, rates, the last reading and the last frames.
 
-use crate::message::{Counts, Entry, Lamp, Shown, Snapshot};
+use crate::message::{Counts, Entry, Lamp, Outcome, Progress, Setting, Shown, Snapshot};
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
     reading::degrees,
+    sequence::{Event, Holds},
     session::{Echo, Micros, Output},
 };
 use std::collections::VecDeque;
@@ -39,6 +40,9 @@ pub struct Tally {
     /// Times of good frames within the last second.
     good_times: VecDeque<Micros>,
     log: VecDeque<Seen>,
+    /// Parts of a turn within the last second.
+    parts: VecDeque<(Micros, f64)>,
+    progress: Option<Progress>,
 }
 
 impl std::fmt::Debug for Tally {
@@ -64,6 +68,8 @@ impl Tally {
             latencies: VecDeque::new(),
             good_times: VecDeque::new(),
             log: VecDeque::new(),
+            parts: VecDeque::new(),
+            progress: None,
         }
     }
 
@@ -98,6 +104,96 @@ impl Tally {
     /// What is known of echo.
     pub const fn echo(&mut self, echo: Echo) {
         self.echo = echo;
+    }
+
+    /// A sequence begins.
+    pub fn begin(&mut self, setting: Setting, total: usize) {
+        let before = self
+            .decoder
+            .as_ref()
+            .zip(self.last_good.as_ref())
+            .and_then(|(decoder, bytes)| shown(&frame_of(decoder, bytes, true)?));
+        self.progress = Some(Progress {
+            setting,
+            done: 0,
+            total: total as u32,
+            count: None,
+            before,
+            outcome: None,
+        });
+        self.changed = true;
+    }
+
+    /// A sequence could not begin.
+    pub fn refuse(&mut self, setting: Setting, why: &str) {
+        self.begin(setting, 0);
+        self.end(Some(false), why.into());
+    }
+
+    /// Bytes have come in while a sequence runs.
+    pub fn received_in_sequence(&mut self, count: usize) {
+        self.counts.set += count as f64;
+        self.changed = true;
+    }
+
+    /// What a sequence says.
+    pub fn follow(&mut self, event: &Event) {
+        self.changed = true;
+        match event {
+            Event::Transmit(_) => {}
+            Event::Progress { done, count, .. } => {
+                if let Some(progress) = &mut self.progress {
+                    progress.done = *done as u32;
+                    progress.count = count.or(progress.count);
+                }
+            }
+            Event::Ended { stop, holds, .. } => {
+                let changed = match holds {
+                    Holds::New => Some(true),
+                    Holds::Old => Some(false),
+                    Holds::Unknown => None,
+                };
+                let text = match stop {
+                    Some(stop) => format!("Stopped: {stop}; {holds}."),
+                    None => format!("Done: {holds}."),
+                };
+                self.end(changed, text);
+            }
+        }
+    }
+
+    fn end(&mut self, changed: Option<bool>, text: String) {
+        // What was read before says nothing about the shaft any more.
+        self.parts.clear();
+        if let Some(progress) = &mut self.progress {
+            progress.outcome = Some(Outcome { changed, text });
+        }
+        self.changed = true;
+    }
+
+    /// The outcome has been read.
+    pub fn forget_progress(&mut self) {
+        self.progress = None;
+        self.changed = true;
+    }
+
+    /// How far the shaft has moved within the last second, in turns, once that is known.
+    #[must_use]
+    pub fn moved(&self, now: Micros) -> Option<f64> {
+        let (first, reference) = *self.parts.front()?;
+        let (last, _) = *self.parts.back()?;
+        let fresh = now.saturating_sub(last) < RATE_OVER / 4;
+        if !fresh || last - first < RATE_OVER * 9 / 10 {
+            return None;
+        }
+        let away = self.parts.iter().map(|(_, part)| {
+            let apart = part - reference;
+            apart - apart.round()
+        });
+        let (low, high) = away.fold((0.0f64, 0.0f64), |(low, high), apart| {
+            (low.min(apart), high.max(apart))
+        });
+        Some(high - low)
     }
 
     /// Counts what the session says; returns whether it is a good frame.
@@ -156,6 +252,9 @@ impl Tally {
                     self.seen_bits[index] += f64::from(u8::from(set));
                 }
             }
+            if let Some(shown) = frame.as_ref().and_then(shown) {
+                self.parts.push_back((now, shown.degrees / 360.0));
+            }
             self.counts.good += 1.0;
             self.last_good = Some(bytes.into());
             self.good_times.push_back(now);
@@ -191,6 +290,13 @@ impl Tally {
         {
             self.good_times.pop_front();
         }
+        while self
+            .parts
+            .front()
+            .is_some_and(|(at, _)| at + RATE_OVER < now)
+        {
+            self.parts.pop_front();
+        }
     }
 
     /// What the page shows; the link's state is the caller's.
@@ -214,6 +320,8 @@ impl Tally {
                 Echo::Absent => Some(false),
                 Echo::Present => Some(true),
             },
+            moved: self.moved(now),
+            progress: self.progress.clone(),
             ..Snapshot::default()
         };
         if let Some(decoder) = &self.decoder {

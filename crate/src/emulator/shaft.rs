@@ -38,6 +38,18 @@ impl Shaft {
         }
     }
 
+    /// A shaft that goes on evenly from where this one is at `now`, in revolutions per second.
+    ///
+    /// ```
+    /// use encoderscope::emulator::Shaft;
+    /// let shaft = Shaft::turning(0.5, 2.0).going_on(1_000_000, 0.0);
+    /// assert_eq!(shaft.at(9_000_000), 2.5);
+    /// ```
+    #[must_use]
+    pub fn going_on(&self, now: Micros, speed: f64) -> Self {
+        Self::turning(self.at(now) - speed * now as f64 / 1e6, speed)
+    }
+
     /// Where it is, in turns.
     ///
     /// ```

@@ -301,7 +301,9 @@ impl Line {
             done: 0,
             ended: false,
             tainted: false,
-            void: addresses.len() < self.bus.devices.len(),
+            // Only one device may be on the wire when an address is set.
+            void: addresses.len() < self.bus.devices.len()
+                || matches!(change, Change::Address(_)) && addresses.len() > 1,
             joined: false,
         });
     }

@@ -190,6 +190,16 @@ impl App {
         self.link_fault.set(None);
     }
 
+    /// The device that is being read has a new address: nothing needs to be opened again.
+    pub(crate) fn adopt_address(self, address: u8) {
+        let moved = |profile: Profile| Profile {
+            address: u32::from(address),
+            ..profile
+        };
+        self.running.update(|running| *running = running.map(moved));
+        self.profile.update(|profile| *profile = moved(*profile));
+    }
+
     /// Lets the console run with the profile that is shown.
     fn follow_profile(self) {
         let shown = self.profile.get();

@@ -4,10 +4,11 @@ use crate::{
     app::{App, Source},
     dial::{AngleDigits, Dial},
     profile_editor::{Offer, ProfileEditor},
+    setting::SettingPanel,
 };
 use encoderscope::explain::{grouped, grouped_signed};
 use encoderscope_web::{
-    message::{Counts, Entry, Lamp, Link, Shown, Snapshot},
+    message::{Counts, Entry, Lamp, Link, Shown, Snapshot, ToEngine},
     serial::{self, Absent},
 };
 use leptos::prelude::*;
@@ -22,6 +23,7 @@ pub(crate) fn Console() -> impl IntoView {
             {move || (!preview()).then(|| view! { <LinkPanel /> })}
             <Angle />
             <Status />
+            {move || (!preview()).then(|| view! { <SettingPanel /> })}
             <Frames />
         </div>
     }
@@ -74,8 +76,8 @@ fn Welcome() -> impl IntoView {
         <section class="panel welcome">
             <h1>"Reads absolute encoders in the browser"</h1>
             <p class="lead">
-                "T485, RS485 and RS422 live over a USB adapter; BiSS-C from a pasted dump. "
-                "No installation, and nothing leaves this device."
+                "T485, RS485, RS422, BUS, PERIOD and ASI live over a USB adapter; SSI and BiSS-C "
+                "from a pasted dump. No installation, and nothing leaves this device."
             </p>
             <div class="doors">
                 <ConnectButton />
@@ -98,7 +100,7 @@ fn Welcome() -> impl IntoView {
 fn LinkPanel() -> impl IntoView {
     let app = expect_context::<App>();
     let link = Memo::new(move |_| app.snapshot.get().link);
-    let open = move || link.get().is_open();
+    let open = Memo::new(move |_| link.get().is_open());
     let title = move || match app.source.get() {
         Source::Port => app.port.get().map_or("Serial port".into(), serial::name),
         Source::Demo | Source::Preview => "Demo encoder".into(),
@@ -112,7 +114,7 @@ fn LinkPanel() -> impl IntoView {
             {serial::available().err().map(|absent| view! { <p class="notice">{absent_text(absent)}</p> })}
             <div class="doors">
                 {move || {
-                    if open() {
+                    if open.get() {
                         view! { <button data-testid="disconnect" on:click=move |_| app.disconnect()>"Disconnect"</button> }
                             .into_any()
                     } else {
@@ -120,15 +122,47 @@ fn LinkPanel() -> impl IntoView {
                     }
                 }}
                 {move || (app.source.get() == Source::Port).then(|| view! { <DemoButton /> })}
-                {move || (open() && app.source.get() == Source::Demo).then(|| view! { <ConnectButton /> })}
+                {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <ConnectButton /> })}
             </div>
             <PortChooser />
+            {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <DemoShaft /> })}
             <details>
                 <summary>"Encoder settings"</summary>
                 <ProfileEditor offer=Offer::Serial />
             </details>
             <Counters />
         </section>
+    }
+}
+
+/// Turns the shaft of the built-in encoder by hand.
+#[component]
+fn DemoShaft() -> impl IntoView {
+    let app = expect_context::<App>();
+    let speed = RwSignal::new(None::<f64>);
+    let turn = move |value: f64| {
+        speed.set(Some(value));
+        app.send(ToEngine::Turn(value));
+    };
+    let text = move || match speed.get() {
+        None => "swinging".to_owned(),
+        Some(0.0) => "standing still".to_owned(),
+        Some(speed) => format!("{speed:+.1} rev/s"),
+    };
+    view! {
+        <label class="shaft">
+            <span>"Demo shaft " <small>{text}</small></span>
+            <input
+                type="range"
+                min="-2"
+                max="2"
+                step="0.1"
+                data-testid="demo-speed"
+                prop:value=move || speed.get().unwrap_or(0.0).to_string()
+                on:input:target=move |event| turn(event.target().value().parse().unwrap_or(0.0))
+            />
+        </label>
+        <button class="quiet" data-testid="demo-hold" on:click=move |_| turn(0.0)>"Hold the shaft"</button>
     }
 }
 
@@ -190,9 +224,9 @@ fn link_text(link: &Link) -> (&'static str, String) {
         ),
         Link::Unasked => (
             "The encoder talks without being asked",
-            "It is a free-running model (PERIOD, ASI): this profile asks and waits for replies. Check the order code.".into(),
+            "It is a free-running model: choose PERIOD, ASI1 or ASI4 in the encoder settings.".into(),
         ),
-        Link::Unfit { reason } => ("This profile cannot be polled", format!("{reason}.")),
+        Link::Unfit { reason } => ("This profile has no serial line", format!("{reason}.")),
         Link::Refused { reason } => (
             "The port could not be opened",
             format!("{reason} Close other programs that use it; on Linux your user must be in the group dialout."),
@@ -262,23 +296,22 @@ fn Counters() -> impl IntoView {
             <Count label="bytes in" testid="bytes-in" read=|snapshot| snapshot.counts.bytes />
             <Count label="in frames" testid="bytes-framed" read=|snapshot| snapshot.counts.framed />
             <Count label="skipped" testid="bytes-skipped" read=|snapshot| snapshot.counts.skipped />
-            <LineErrors />
+            <Counted label="in sequences" read=|counts| counts.set />
+            <Counted label="line errors" read=|counts| counts.line />
         </dl>
     }
 }
 
+/// A number that is only shown when there is something to count.
 #[component]
-fn LineErrors() -> impl IntoView {
+fn Counted(label: &'static str, read: fn(&Counts) -> f64) -> impl IntoView {
     let app = expect_context::<App>();
-    let line = Memo::new(move |_| {
-        let Counts { line, .. } = app.snapshot.get().counts;
-        line
-    });
+    let value = Memo::new(move |_| read(&app.snapshot.get().counts));
     move || {
-        (line.get() > 0.0).then(|| {
+        (value.get() > 0.0).then(|| {
             view! {
-                <dt>"line errors"</dt>
-                <dd>{move || grouped(line.get() as u64)}</dd>
+                <dt>{label}</dt>
+                <dd>{move || grouped(value.get() as u64)}</dd>
             }
         })
     }

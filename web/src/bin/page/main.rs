@@ -12,6 +12,7 @@ mod decode;
 mod dial;
 mod frame_view;
 mod profile_editor;
+mod setting;
 
 use wasm_bindgen::prelude::*;
 
