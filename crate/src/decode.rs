@@ -7,7 +7,7 @@ use crate::{
     format::{Format, Medium, asi1, asi4, biss_c, bus, period, ssi, ssi_tree, ssi7, t485},
     framing::{Framer, Piece, PieceKind, Why},
     layout::{Layout, Resolved, Shape},
-    profile::{Profile, ProfileError},
+    profile::{Dialect, Profile, ProfileError},
     reading::{Fault, FaultKind, Reading, Values},
 };
 use alloc::{borrow::Cow, vec, vec::Vec};
@@ -98,11 +98,17 @@ pub struct Summary {
     pub skipped: u64,
 }
 
+/// What the profile's own address speaks for a BUS frame, in bits.
+const OWN_DEVICE: i8 = 6;
+/// What a parity of the other sense speaks against it.
+const OTHER_PARITY: i8 = -6;
+
 /// A byte that begins no frame.
 const NO_LEAD: Lead = Lead {
     layout: u8::MAX,
     request: false,
     names: 0,
+    unsure: false,
 };
 
 /// The shapes that a line of a dump can have, the likeliest first.
@@ -129,6 +135,8 @@ struct Lead {
     request: bool,
     /// How much it speaks for a frame beyond what the checks count, in bits.
     names: i8,
+    /// Whether an encoder may not know the request, and answer with another layout.
+    unsure: bool,
 }
 
 impl Decoder {
@@ -177,10 +185,15 @@ impl Decoder {
     }
 
     fn lead(&self, byte: u8) -> Lead {
+        let asked = t485::Request::of_byte(byte).filter(|_| self.profile.format == Format::T485);
         let index = match self.profile.format {
-            Format::T485 => t485::Request::ALL
-                .iter()
-                .position(|request| request.byte() == byte),
+            Format::T485 => match asked {
+                Some(asked) => t485::Request::ALL
+                    .iter()
+                    .position(|request| *request == asked),
+                // Any other control byte is answered with the angle.
+                None => t485::is_control(byte).then_some(0),
+            },
             Format::Bus => {
                 let code = self.layouts[0].values(Bits::of_bytes(&[byte])).operation;
                 let mut known = bus::Operation::ALL.iter();
@@ -191,7 +204,7 @@ impl Decoder {
         let names = self.weigh_lead(byte);
         let request = match self.profile.format {
             Format::Rs485 => byte == self.profile.command.byte(),
-            Format::T485 => index.is_some(),
+            Format::T485 => asked.is_some(),
             Format::Bus => names > 0,
             _ => false,
         };
@@ -199,6 +212,7 @@ impl Decoder {
             layout: index.map_or(u8::MAX, |index| index as u8),
             request,
             names,
+            unsure: asked.is_some_and(|asked| !asked.is_known_to(Dialect::Mpp)),
         }
     }
 
@@ -212,10 +226,10 @@ impl Decoder {
         let own = values.address.map(u32::from) == Some(self.profile.address);
         let parity = match values.parity {
             Some(parity) if parity.ok() => 1,
-            Some(_) => -6,
+            Some(_) => OTHER_PARITY,
             None => 0,
         };
-        parity + if own { 6 } else { 0 }
+        parity + if own { OWN_DEVICE } else { 0 }
     }
 
     /// The profile.
@@ -234,7 +248,24 @@ impl Decoder {
             return self.layouts.get(asi4::digits(bytes)? - 1);
         }
         let lead = self.leads[usize::from(*bytes.first()?)];
-        self.layouts.get(usize::from(lead.layout))
+        let layout = self.layouts.get(usize::from(lead.layout))?;
+        if lead.unsure {
+            return Some(self.refused(bytes).unwrap_or(layout));
+        }
+        Some(layout)
+    }
+
+    /// The layout of the reply to a T485 request that the encoder did not understand: it sends
+    /// the angle instead.
+    fn refused(&self, bytes: &[u8]) -> Option<&Resolved> {
+        let holds = |layout: &&Resolved| {
+            let frame = bytes.get(..layout.len / 8);
+            frame.is_some_and(|frame| layout.holds(Bits::of_bytes(frame)))
+        };
+        let own = self.leads[usize::from(*bytes.first()?)].layout;
+        let own = self.layouts.get(usize::from(own))?;
+        let angle = self.layouts.first()?;
+        (!holds(&own) && holds(&angle)).then_some(angle)
     }
 
     /// The layout that describes a whole frame, for explaining and encoding.
@@ -298,7 +329,11 @@ impl Decoder {
     #[inline]
     pub(crate) const fn begins_alike(&self, byte: u8, like: u8) -> bool {
         let lead = self.leads[byte as usize];
-        !lead.request && lead.layout == self.leads[like as usize].layout
+        let alike = match self.echoes() {
+            true => byte == like && lead.names >= 0,
+            false => lead.layout == self.leads[like as usize].layout,
+        };
+        alike && !lead.request
     }
 
     /// Whether `byte` is a request that may stand before its reply in a dump.
@@ -312,6 +347,18 @@ impl Decoder {
     #[must_use]
     pub const fn echoes(&self) -> bool {
         matches!(self.profile.format, Format::T485 | Format::Bus)
+    }
+
+    /// Whether a frame that begins with `byte` needs no more proof of its place than its checks.
+    /// The CRC of BUS holds in other phases too, so the device must be the profile's, or the one
+    /// of the frame before.
+    #[inline]
+    pub(crate) fn is_known_lead(&self, byte: u8, before: Option<u8>) -> bool {
+        if self.profile.format != Format::Bus {
+            return true;
+        }
+        let names = self.names(byte);
+        names >= OWN_DEVICE.into() || names > 0 && before == Some(byte)
     }
 
     /// How much the first byte of a frame speaks for it beyond what its checks count, in bits.
@@ -388,11 +435,18 @@ impl Decoder {
         let shapes = shapes.as_ref().map_err(|why| *why)?;
         let shape = shapes[chosen].or_else(|| shapes.iter().copied().flatten().next());
         let shape = shape.ok_or(Why::NoFrame)?;
+        let layout = self.shaped(shape);
+        // Without a checksum, a clock too many may be on either side of a word.
+        let others = shapes.iter().flatten().filter(|other| **other != shape);
+        let rivals = others
+            .map(|other| self.shaped(*other))
+            .filter(|other| other.holds(bits) && other.reading(bits) != layout.reading(bits));
+        let sure = self.profile.format == Format::BissC || rivals.count() == 0;
         Ok(Frame {
             start: 0,
-            layout: self.shaped(shape),
+            layout,
             bits,
-            sure: true,
+            sure,
         })
     }
 
@@ -435,10 +489,11 @@ impl Decoder {
         let lines = || dump.lines.iter().map(|line| line.bits.as_bits());
         let chosen = self.likeliest(all.iter().zip(lines()));
         let mut start = 0;
+        let as_bits = dump.is_bits();
         for (shapes, bits) in all.iter().zip(lines()) {
             let bytes = bits.bytes().len() as u64;
-            let here = if dump.is_bits() { start } else { start / 8 };
-            start += if dump.is_bits() {
+            let here = if as_bits { start } else { start / 8 };
+            start += if as_bits {
                 bits.len()
             } else {
                 bits.bytes().len() * 8

@@ -106,7 +106,10 @@ pub fn detect(text: &str) -> Vec<Candidate> {
         dump::parse(text, Medium::Bits),
         dump::parse(text, Medium::Text),
     ];
+    // Strings of 0 and 1 are clocked words.
+    let bits_only = dumps[1].is_bits();
     let mut found: Vec<Candidate> = hypotheses()
+        .filter(|profile| !bits_only || profile.format.medium() == Medium::Bits)
         .filter_map(|profile| {
             let dump = match profile.format.medium() {
                 Medium::Bytes => &dumps[0],

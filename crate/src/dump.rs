@@ -4,7 +4,7 @@
 //! and strings of 0 and 1; of text streams, lines of decimal numbers too. What cannot be read is kept, with its place.
 
 use crate::{bits::BitString, format::Medium};
-use alloc::vec::Vec;
+use alloc::{format, vec::Vec};
 use core::ops::Range;
 
 /// Digits of the longest number that is taken for one in a text stream; longer runs are bytes.
@@ -55,9 +55,18 @@ impl Dump {
 /// ```
 #[must_use]
 pub fn parse(text: &str, medium: Medium) -> Dump {
+    // Files may begin with a mark of their encoding; blanks keep the places of what follows.
+    let blank;
+    let text = match text.strip_prefix('\u{feff}') {
+        Some(rest) => {
+            blank = format!("   {rest}");
+            &blank
+        }
+        None => text,
+    };
     let mut dump = Dump::default();
     if medium == Medium::Text && is_decimal(text) {
-        for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        for line in text.lines().map(bare).filter(|line| !line.is_empty()) {
             let at = line.as_ptr() as usize - text.as_ptr() as usize;
             match is_number(line) {
                 true => dump.lines.push(decimal_line(line)),
@@ -98,8 +107,16 @@ pub fn parse(text: &str, medium: Medium) -> Dump {
 /// Whether the text is what a terminal shows of a stream of decimal numbers, one a line: then
 /// there is no line feed among its bytes, as there is in every dump of such a stream.
 fn is_decimal(text: &str) -> bool {
-    let dumped = text.to_ascii_lowercase().contains("0a");
-    !dumped && text.lines().any(|line| is_number(line.trim()))
+    let feeds = |token: Token<'_>| {
+        let token = token.text.to_ascii_lowercase();
+        token.trim_start_matches("0x") == "0a" || token.ends_with("0d0a")
+    };
+    !text.lines().flat_map(tokens_of).any(feeds) && text.lines().any(|line| is_number(bare(line)))
+}
+
+/// A line without what separates it from the next.
+fn bare(line: &str) -> &str {
+    line.trim_matches(|letter: char| letter.is_whitespace() || ",;".contains(letter))
 }
 
 fn is_number(line: &str) -> bool {
@@ -161,11 +178,15 @@ impl<'a> Token<'a> {
             return true;
         }
         let mut bytes = Vec::new();
-        for part in self.text.split("\\x").filter(|part| !part.is_empty()) {
+        // Assemblers write 1Ah, and some terminals single digits.
+        let text = match self.text.strip_suffix(['h', 'H']) {
+            Some(digits) if !digits.contains("\\x") => digits,
+            _ => self.text,
+        };
+        for part in text.split("\\x").filter(|part| !part.is_empty()) {
             let digits = part.strip_prefix("0x").or_else(|| part.strip_prefix("0X"));
-            let prefixed = digits.is_some() || part.len() < self.text.len();
             let digits = digits.unwrap_or(part);
-            let whole = digits.len().is_multiple_of(2) || (digits.len() == 1 && prefixed);
+            let whole = digits.len().is_multiple_of(2) || digits.len() == 1;
             if digits.is_empty() || !whole || !digits.bytes().all(|digit| digit.is_ascii_hexdigit())
             {
                 return false;

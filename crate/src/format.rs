@@ -14,7 +14,10 @@ pub mod ssi7;
 pub mod ssi_tree;
 pub mod t485;
 
-use crate::{layout::StatusBit, profile::Profile};
+use crate::{
+    layout::{StatusBit, layout},
+    profile::Profile,
+};
 use alloc::{string::String, vec::Vec};
 
 /// A wire format.
@@ -88,6 +91,8 @@ pub struct Spec {
     pub link: Link,
     /// The names of the parameters that matter.
     pub parameters: &'static [&'static str],
+    /// The names of what its frames may hold beside position and health, in records.
+    pub quantities: &'static [&'static str],
     /// How wide the numbers can be.
     pub limits: Limits,
     /// What omitted parameters are: the widest encoder of the manual that speaks the format.
@@ -189,6 +194,22 @@ impl Format {
     #[must_use]
     pub const fn default_profile(self) -> Profile {
         self.spec().default
+    }
+}
+
+/// What changes an encoder must be asked for ten times (MPP "RS485" note 3, "T485" notes 3 and
+/// 4, "BUS" set zero and set address).
+pub const TIMES: u8 = 10;
+
+layout! {
+    /// Error, warning and status, as SSI, RS485, RS422, PERIOD and BUS send them.
+    pub static HEALTH(p) {
+        /// The position is not valid; the encoder's LED is red.
+        error: Error[1];
+        /// The position is valid, but the status names something near its limit; LED yellow.
+        warning: Warning[1];
+        /// Battery, magnetic field, temperature and speed.
+        status: Status[6], bits = STATUS;
     }
 }
 

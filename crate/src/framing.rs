@@ -23,7 +23,13 @@ mod evidence;
 mod text;
 mod weigh;
 
-use crate::{bits::Bits, decode::Decoder, format::Format, layout::Resolved, reading::Reading};
+use crate::{
+    bits::{self, Bits},
+    decode::Decoder,
+    format::Format,
+    layout::Resolved,
+    reading::Reading,
+};
 use alloc::vec::Vec;
 use core::fmt;
 use evidence::{Position, WINDOW};
@@ -134,7 +140,12 @@ pub struct Framer {
     held: bool,
     /// Nothing has been skipped since the start of the input or the last sure frame.
     contiguous: bool,
+    /// Where the shaft was in the last sure frame, and in the one before.
     last: Option<Position>,
+    earlier: Option<Position>,
+    /// The last sure frame, and whether it was the one before it again.
+    previous: Vec<u8>,
+    repeats: bool,
 }
 
 type Sink<'s> = dyn FnMut(Piece<'_>) + 's;
@@ -172,6 +183,9 @@ impl Framer {
             held: false,
             contiguous: true,
             last: None,
+            earlier: None,
+            previous: Vec::new(),
+            repeats: false,
         }
     }
 
@@ -227,10 +241,14 @@ impl Framer {
                             holds: matches!(trust, Trust::Sure | Trust::Unsure),
                         },
                     });
-                    self.held = matches!(trust, Trust::Sure | Trust::Kept);
+                    self.held = trust == Trust::Sure || trust == Trust::Kept && self.held;
                     if trust == Trust::Sure {
                         self.contiguous = true;
+                        self.earlier = self.last;
                         self.last = Position::of(layout, bytes).or(self.last);
+                        self.repeats = self.previous == bytes;
+                        self.previous.clear();
+                        self.previous.extend_from_slice(bytes);
                     }
                     from = end;
                     self.skipped = 0;
@@ -261,6 +279,8 @@ impl Framer {
         let mut moved = None;
         while let Some(layout) = self.beyond_doubt(decoder, &self.buffer[at..]) {
             let len = layout.len / 8;
+            let mut repeats = self.previous == self.buffer[at..at + len];
+            let mut word = bits::word(&self.buffer[at..at + len.min(8)]);
             loop {
                 let bytes = &self.buffer[at..at + len];
                 sink(Piece {
@@ -281,10 +301,18 @@ impl Framer {
                 let alike = next
                     .first()
                     .is_some_and(|byte| decoder.begins_alike(*byte, bytes[0]));
-                if !alike || layout.is_sound_word(next) != Some(true) {
+                let Some((new, true)) = layout.is_sound_word(next).filter(|_| alike) else {
+                    break;
+                };
+                let same = new == word;
+                if repeats && !same {
                     break;
                 }
+                (repeats, word) = (same, new);
             }
+            self.repeats = repeats;
+            self.previous.clear();
+            self.previous.extend_from_slice(&self.buffer[at - len..at]);
         }
         if let Some((layout, last)) = moved {
             let bytes = &self.buffer[last..last + layout.len / 8];
@@ -304,6 +332,14 @@ impl Framer {
             return None;
         }
         // A request before its reply may pass as the first byte of a frame.
+        let frame = &rest[..len];
+        // A still shaft may repeat a frame in two phases that both pass for ever.
+        if self.repeats && self.previous != frame {
+            return None;
+        }
+        if !decoder.is_known_lead(rest[0], self.previous.first().copied()) {
+            return None;
+        }
         let asks = decoder.is_request(rest[0])
             && (!decoder.echoes() || rest.get(1) == Some(&rest[0]))
             && (rest.len() == len || passing(decoder, &rest[1..]).is_some());

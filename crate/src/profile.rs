@@ -316,7 +316,8 @@ impl Profile {
     /// An unknown name, an unreadable value, or a width the format has no room for.
     pub fn with(&self, name: &str, value: &str) -> Result<Self, ProfileError> {
         let mut changed = *self;
-        changed.set(&kebab(name), value)?;
+        let name = kebab(name);
+        changed.set(&name, value)?;
         if name != "frame-bits" && self.frame_bits == self.natural_frame_bits() {
             changed.frame_bits = changed.natural_frame_bits();
         }

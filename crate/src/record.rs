@@ -4,11 +4,11 @@
 
 use crate::{
     decode::{Frame, Summary},
-    explain::Note,
+    explain::{Note, degrees_text},
     layout::Class,
     model::Model,
     profile::{Profile, camel},
-    reading::{Checked, degrees},
+    reading::Checked,
 };
 use alloc::{
     format,
@@ -25,7 +25,7 @@ pub enum Value {
     /// Truth.
     Bool(bool),
     /// A whole number.
-    Int(i64),
+    Int(i128),
     /// A number with digits behind the point.
     Float(f64),
     /// Text.
@@ -74,6 +74,15 @@ impl Record {
         }
     }
 
+    /// Adds a value that the format may have: null where this frame has none.
+    #[must_use]
+    fn with_known(self, name: &str, known: &[&str], value: Option<impl Into<Value>>) -> Self {
+        match known.contains(&name) {
+            true => self.with(name, value),
+            false => self.with_some(name, value),
+        }
+    }
+
     /// The value of a name.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<&Value> {
@@ -95,9 +104,9 @@ value_from! {
     bool => |value| Self::Bool(value);
     u8 => |value| Self::Int(value.into());
     u32 => |value| Self::Int(value.into());
-    i64 => |value| Self::Int(value);
-    u64 => |value| i64::try_from(value).map_or_else(|_| Self::Text(value.to_string()), Self::Int);
-    usize => |value| Self::Int(i64::try_from(value).unwrap_or(i64::MAX));
+    i64 => |value| Self::Int(value.into());
+    u64 => |value| Self::Int(value.into());
+    usize => |value| Self::Int(value as i128);
     f64 => |value| Self::Float(value);
     String => |value| Self::Text(value);
     &str => |value| Self::Text(value.to_string());
@@ -173,14 +182,9 @@ pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A number with at most `digits` digits behind the point.
-fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.digits$}").parse().unwrap_or(value)
-}
-
 /// Digits behind the point that one count of an encoder of `bits` bits deserves.
-fn useful_digits(bits: u32) -> usize {
-    (bits / 3).clamp(4, 12) as usize
+fn useful_digits(bits: u32) -> u32 {
+    (bits / 3).clamp(4, 12)
 }
 
 fn scaled(value: Option<i32>) -> Option<f64> {
@@ -192,7 +196,9 @@ impl Frame<'_> {
     #[must_use]
     pub fn record(&self) -> Record {
         let values = self.values();
-        let bits = self.layout.shape.profile.angle_bits;
+        let profile = &self.layout.shape.profile;
+        let bits = profile.angle_bits;
+        let known = profile.format.spec().quantities;
         let faults: Vec<String> = self
             .faults()
             .iter()
@@ -206,26 +212,28 @@ impl Frame<'_> {
             .with("angle", values.angle)
             .with(
                 "degrees",
-                values
-                    .angle
-                    .map(|angle| rounded(degrees(angle, bits), useful_digits(bits))),
+                values.angle.and_then(|angle| {
+                    degrees_text(angle, bits, useful_digits(bits))
+                        .parse::<f64>()
+                        .ok()
+                }),
             )
             .with("error", values.error)
             .with("warning", values.warning)
             .with("status", values.status)
             .with("crc", values.crc)
-            .with_some("parity", values.parity)
-            .with_some("temperature", scaled(values.temperature))
-            .with_some("speed", scaled(values.speed))
-            .with_some("valid", values.valid)
-            .with_some("zeroDefault", values.zero_default)
-            .with_some("address", values.address)
-            .with_some("operation", values.operation)
-            .with_some("count", values.count)
-            .with_some("enid", values.enid)
-            .with_some("alarm", values.alarm)
-            .with_some("memoryAddress", values.memory.0)
-            .with_some("memoryData", values.memory.1)
+            .with_known("parity", known, values.parity)
+            .with_known("temperature", known, scaled(values.temperature))
+            .with_known("speed", known, scaled(values.speed))
+            .with_known("valid", known, values.valid)
+            .with_known("zeroDefault", known, values.zero_default)
+            .with_known("address", known, values.address)
+            .with_known("operation", known, values.operation)
+            .with_known("count", known, values.count)
+            .with_known("enid", known, values.enid)
+            .with_known("alarm", known, values.alarm)
+            .with_known("memoryAddress", known, values.memory.0)
+            .with_known("memoryData", known, values.memory.1)
             .with_some("faults", (!faults.is_empty()).then_some(faults))
     }
 }

@@ -22,9 +22,9 @@ pub use runner::{Event, Runner};
 
 use crate::{
     format::{
-        Format,
+        Format, TIMES,
         bus::{self, Operation},
-        rs485::Command,
+        rs485::{self, Command},
         t485::Request,
     },
     profile::Profile,
@@ -140,8 +140,8 @@ static RS485_ZERO: Script = Script {
         step(Send::Rs485(Command::Position), Expect::Reply),
         step(Send::Rs485(Command::Zero), Expect::CountsRound),
     ],
-    rounds: 10,
-    settles: 40_000,
+    rounds: TIMES,
+    settles: rs485::STORING,
     after: step(Send::Rs485(Command::Position), Expect::Reply),
     proof: Proof::Count,
 };
@@ -150,7 +150,7 @@ static T485_RESET_ANGLE: Script = Script {
     title: "reset angle",
     before: step(Send::T485(Request::Angle), Expect::Reply),
     round: &[step(Send::T485(Request::ResetAngle), Expect::Reply)],
-    rounds: 10,
+    rounds: TIMES,
     settles: 0,
     after: step(Send::T485(Request::Angle), Expect::Reply),
     proof: Proof::Angle,
@@ -191,8 +191,8 @@ static BUS_ZERO: Script = Script {
         step(Send::Bus(Operation::Get), Expect::Reply),
         step(Send::Bus(Operation::SetZero), Expect::CountsRound),
     ],
-    rounds: 10,
-    settles: 50_000,
+    rounds: TIMES,
+    settles: bus::STORING,
     after: step(Send::Bus(Operation::Get), Expect::Reply),
     proof: Proof::Count,
 };
@@ -215,7 +215,7 @@ static BUS_ADDRESS: Script = Script {
         step(Send::NewAddress, Expect::Counts(10)),
     ],
     rounds: 1,
-    settles: 50_000,
+    settles: bus::STORING,
     after: step(Send::GetNew, Expect::Reply),
     proof: Proof::Count,
 };

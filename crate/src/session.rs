@@ -14,7 +14,8 @@
 //! A reply is only sure when it comes alone: the line must be quiet before the first request,
 //! and what comes unasked, or in excess of a reply, makes the session wait for silence. A
 //! reply that is missing may still be on its way, so the next one is not sure, and the
-//! patience grows until replies and requests pair up again.
+//! patience grows until replies and requests pair up again. Every few seconds the session listens
+//! a little longer before it asks, so that a reply too many is found out.
 
 mod ask;
 
@@ -38,6 +39,10 @@ pub(crate) const TIMEOUT: Micros = 100_000;
 const LONGEST_TIMEOUT: Micros = 800_000;
 /// A stream that says nothing for so long is silent.
 const SILENCE: Micros = 500_000;
+/// Now and then a session listens before it asks, so that a reply too many does not stay in front
+/// of all others: this often, and for so many times the last latency.
+const LISTEN_EVERY: Micros = 5_000_000;
+const LISTEN_TIMES: Micros = 4;
 /// Replies that must agree before echo is taken as known.
 const AGREE: u8 = 3;
 /// More than any reply: the line is talking without being asked.
@@ -126,6 +131,8 @@ pub struct Session {
     timeout: Micros,
     /// A reply was missing and may still come.
     late: bool,
+    /// When the session last listened before it asked.
+    listened: Micros,
     received: Vec<u8>,
     framer: Framer,
     output: VecDeque<Output>,
@@ -178,6 +185,7 @@ impl Session {
             votes: 0,
             timeout: TIMEOUT,
             late: false,
+            listened: 0,
             received: Vec::new(),
             framer: Framer::joining(),
             output: VecDeque::new(),
@@ -349,7 +357,12 @@ impl Session {
     /// A good reply stands at `offset`, which is right for what is known of echo.
     fn accept(&mut self, now: Micros, sent: Micros, offset: usize) {
         self.emit(now, sent, offset, Some(offset));
-        self.state = State::Idle(self.next_request(now, sent));
+        let mut next = self.next_request(now, sent);
+        if now > self.listened + LISTEN_EVERY {
+            self.listened = now;
+            next = next.max(now + LISTEN_TIMES * (now - sent));
+        }
+        self.state = State::Idle(next);
     }
 
     /// The line is quiet or the time is up: makes the best of what has come.

@@ -21,7 +21,7 @@ export interface Profile {
   /** RS485: the command whose replies are read. */
   command?: '0' | '1' | 'd' | 's' | 't';
   /** BUS: address of the device, 0…31. */
-  address?: number;
+  address?: number | null;
   /** SSI fir-tree: `gray` unless said otherwise. */
   code?: 'gray' | 'binary';
   /** SSI fir-tree: `tree` unless said otherwise. */
@@ -45,6 +45,7 @@ export interface Checked {
   ok: boolean;
 }
 
+/** A frame; quantities that the format may have and this frame has not are null. */
 export interface Frame {
   /** Offset in the input: bytes, or bits for strings of 0 and 1. */
   start: number;
@@ -60,24 +61,25 @@ export interface Frame {
   /** The six status bits; T485: the SF byte. */
   status: number | null;
   crc: Checked | null;
-  parity?: Checked;
+  /** BUS: what the manual leaves open, so that it may fail in a frame that is ok. */
+  parity?: Checked | null;
   /** °C */
-  temperature?: number;
+  temperature?: number | null;
   /** rev/s */
-  speed?: number;
+  speed?: number | null;
   /** ASI1: the position is valid. */
-  valid?: boolean;
+  valid?: boolean | null;
   /** ASI1: no zero has been set by the user. */
-  zeroDefault?: boolean;
+  zeroDefault?: boolean | null;
   /** BUS: the device that answers. */
   address?: number;
   /** T485: the data ID; BUS: 0 get, 1 set zero, 2 set address. */
-  operation?: number;
-  count?: number;
-  enid?: number;
-  alarm?: number;
-  memoryAddress?: number;
-  memoryData?: number;
+  operation?: number | null;
+  count?: number | null;
+  enid?: number | null;
+  alarm?: number | null;
+  memoryAddress?: number | null;
+  memoryData?: number | null;
   /** What is wrong, in words. */
   faults?: string[];
 }

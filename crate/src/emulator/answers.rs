@@ -4,7 +4,7 @@ use super::{Emulator, shaft::split};
 use crate::{
     bits::{self, Bits, Span},
     format::{
-        Format, bus,
+        Format, TIMES, bus,
         bus::Operation,
         rs485,
         t485::{self, Request},
@@ -17,23 +17,16 @@ use alloc::vec::Vec;
 
 /// The reply starts 3 µs after the request (MPP "T485").
 pub(super) const TURNAROUND: Micros = 3;
-/// Commands that change an encoder must be asked for ten times (MPP "T485", "RS485", "BUS").
-const TEN: u8 = 10;
-/// How long an encoder is silent while it stores (MPP "RS485", note 3; "BUS", note 2).
-const RS485_STORING: Micros = 40_000;
-const BUS_STORING: Micros = 50_000;
 /// The first counts of an address sequence get no answer (MPP "BUS", set address, note 2).
 const SILENT_COUNTS: u8 = 3;
 /// A request of several bytes is given up when the next byte does not come.
 const BETWEEN_BYTES: Micros = 20_000;
-/// Bytes of Tamagawa's EEPROM.
-const MEMORY: usize = 128;
 
 /// What an encoder keeps of a conversation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Talk {
     pub(super) address: u8,
-    pub(super) memory: [u8; MEMORY],
+    pub(super) memory: [u8; t485::MEMORY_SIZE as usize],
     /// How many commands of a sequence have been counted.
     pub(super) counted: u8,
     last: u8,
@@ -56,7 +49,7 @@ impl Talk {
     pub(super) const fn new(profile: &Profile) -> Self {
         Self {
             address: bits::low_byte(profile.address as u64),
-            memory: [0; MEMORY],
+            memory: [0; t485::MEMORY_SIZE as usize],
             counted: 0,
             last: 0,
             deaf_until: 0,
@@ -111,8 +104,8 @@ impl Emulator {
         };
         let layout = self.resolved(command.reply());
         let reply = layout.encode(&self.values(now)).into_bytes();
-        if self.talk.counted == TEN {
-            self.store_zero(now, RS485_STORING);
+        if self.talk.counted == TIMES {
+            self.store_zero(now, rs485::STORING);
             self.talk.counted = 0;
         }
         Some(reply)
@@ -139,7 +132,7 @@ impl Emulator {
             true => self.talk.counted.saturating_add(1),
             false => 1,
         };
-        if self.talk.counted == TEN {
+        if self.talk.counted == TIMES {
             self.reset(now, known);
         }
         let layout = self.resolved(known.unwrap_or(Request::Angle).reply());
@@ -241,8 +234,8 @@ impl Emulator {
             _ => 0,
         };
         let count = self.talk.zero_count;
-        if count == TEN {
-            self.store_zero(now, BUS_STORING);
+        if count == TIMES {
+            self.store_zero(now, bus::STORING);
             self.talk.zero_count = 0;
         }
         count
@@ -263,11 +256,11 @@ impl Emulator {
             return answered.then_some(1);
         }
         self.talk.address_count = count + 1;
-        if self.talk.address_count == TEN {
+        if self.talk.address_count == TIMES {
             self.talk.address = address;
             self.talk.address_count = 0;
-            self.talk.deaf_until = now + BUS_STORING;
-            return Some(TEN);
+            self.talk.deaf_until = now + bus::STORING;
+            return Some(TIMES);
         }
         (answered || self.talk.address_count > SILENT_COUNTS).then_some(count + 1)
     }

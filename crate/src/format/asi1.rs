@@ -35,6 +35,7 @@ pub const SPEC: Spec = Spec {
     title: "ASI1",
     link: Link::Stream,
     parameters: &["angle-bits", "marker", "baud"],
+    quantities: &["valid", "zeroDefault"],
     limits: Limits {
         angle: POSITION,
         turns: 0,

@@ -25,6 +25,7 @@ pub const SPEC: Spec = Spec {
     title: "ASI4",
     link: Link::Stream,
     parameters: &["angle-bits", "baud"],
+    quantities: &[],
     limits: Limits {
         angle: 16,
         turns: 0,

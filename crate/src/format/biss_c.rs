@@ -44,9 +44,10 @@ pub const SPEC: Spec = Spec {
         "ack-bits",
         "justify",
     ],
+    quantities: &[],
     limits: Limits {
         angle: 64,
-        turns: 32,
+        turns: 63,
         together: 64,
         frame: (0, 0),
     },

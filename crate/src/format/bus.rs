@@ -20,7 +20,7 @@
 //! bits; models XXM count 16 bits and sleep 32 µs up to 16 bits per turn, 36 µs above. The sense
 //! of the parity is likely, not certain: it is shown, and a frame is not refused for it.
 
-use super::{Format, Limits, Link, STATUS, Spec};
+use super::{Format, HEALTH, Limits, Link, Spec};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, Resolved, Shape, Weight, layout},
@@ -41,6 +41,7 @@ pub const SPEC: Spec = Spec {
         "parity",
         "baud",
     ],
+    quantities: &["parity", "address", "operation", "count"],
     limits: Limits {
         angle: 24,
         turns: 16,
@@ -52,6 +53,9 @@ pub const SPEC: Spec = Spec {
         ..Profile::base(Format::Bus)
     },
 };
+
+/// The longest that an encoder is silent while it stores, in microseconds (MPP "BUS", note 2).
+pub const STORING: u64 = 50_000;
 
 /// What a request asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,8 +139,8 @@ pub fn request(profile: &Profile, operation: Operation, address: u8) -> u8 {
 #[must_use]
 pub const fn suspend(profile: &Profile) -> u64 {
     let bytes = profile.angle_bits.div_ceil(8) + profile.turns_bits / 8 + 4;
-    // Ten bits a byte at 2.5 bits a microsecond.
-    (bytes * 10 * 10 / 25) as u64
+    // Ten bits a byte.
+    bytes as u64 * 10_000_000 / profile.baud as u64
 }
 
 layout! {
@@ -158,18 +162,6 @@ layout! {
 }
 
 layout! {
-    /// The status byte.
-    pub static STATUS_BYTE(p) {
-        /// The position is not valid; the encoder's LED is red.
-        error: Error[1];
-        /// The position is valid, but the status names something near its limit; LED yellow.
-        warning: Warning[1];
-        /// Battery, magnetic field, temperature and speed.
-        status: Status[6], bits = STATUS;
-    }
-}
-
-layout! {
     /// The exclusive or of all bytes before it.
     pub static CRC(p) {
         /// Exclusive or of all bytes before it.
@@ -181,7 +173,7 @@ layout! {
     /// Reply to *get*: status, angle, and turns where the model counts them.
     pub static GET(p) {
         include HEAD;
-        include STATUS_BYTE;
+        include HEALTH;
         le {
             /// The bits above the angle are 0: the angle is right-aligned in two or three bytes.
             angle_padding: Padding[if p.angle_bits > 16 { 24u32 } else { 16 }.saturating_sub(p.angle_bits)];
@@ -202,7 +194,7 @@ layout! {
     /// Reply to *set zero* and *set address*.
     pub static COUNT(p) {
         include HEAD;
-        include STATUS_BYTE;
+        include HEALTH;
         /// How many commands of the sequence the encoder has counted; at 10 it acts.
         count: Count[8];
         include CRC;

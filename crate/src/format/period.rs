@@ -29,6 +29,7 @@ pub const SPEC: Spec = Spec {
     title: "PERIOD",
     link: Link::Stream,
     parameters: &["angle-bits", "turns-bits", "turns-code", "baud"],
+    quantities: &[],
     limits: rs485::SPEC.limits,
     default: Profile::base(Format::Period),
 };

@@ -20,7 +20,7 @@
 //! (single turn: five), 0x31 six. PT's commands 0x21, 0731 and 0704 are 0x31, 0x64 and 0x74.
 //! PT's CRC table is damaged; the polynomial is right.
 
-use super::{Format, Limits, Link, STATUS, Spec};
+use super::{Format, HEALTH, Limits, Link, Spec};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, layout},
@@ -33,6 +33,7 @@ pub const SPEC: Spec = Spec {
     title: "RS485",
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "command", "baud"],
+    quantities: &["temperature", "speed", "count"],
     limits: Limits {
         angle: 24,
         turns: 16,
@@ -41,6 +42,9 @@ pub const SPEC: Spec = Spec {
     },
     default: Profile::base(Format::Rs485),
 };
+
+/// How long an encoder is silent while it stores a zero, in microseconds (MPP "RS485", note 3).
+pub const STORING: u64 = 40_000;
 
 /// A command of the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,12 +153,7 @@ layout! {
     /// Position and status reply: to 0x64 `d`.
     pub static STATUS_REPLY(p) {
         include DATA;
-        /// The position is not valid; the encoder's LED is red.
-        error: Error[1];
-        /// The position is valid, but the status names something near its limit; LED yellow.
-        warning: Warning[1];
-        /// Battery, magnetic field, temperature and speed.
-        status: Status[6], bits = STATUS;
+        include HEALTH;
         /// CRC over all bytes before it.
         crc: Crc[8], check = Check::from(Checksum::Crc8x97, "turns_padding");
     }

@@ -20,7 +20,7 @@
 //! Where the manuals mislead: MPP's row calls b5…b0 "1 bit", there are six; the row "t_CL 400
 //! ns…14 µs" is the clock's period and contradicts the row of frequencies, which is right.
 
-use super::{Format, Limits, Link, STATUS, Spec};
+use super::{Format, HEALTH, Limits, Link, Spec};
 use crate::{
     bits::Bits,
     decode::Shapes,
@@ -34,6 +34,7 @@ pub const SPEC: Spec = Spec {
     title: "SSI",
     link: Link::Clocked,
     parameters: &["angle-bits", "turns-bits", "turns-code", "justify"],
+    quantities: &[],
     limits: Limits {
         angle: 32,
         turns: 16,
@@ -51,12 +52,7 @@ layout! {
         turns: Turns[p.turns_bits];
         /// Angle within one turn.
         angle: Angle[p.angle_bits];
-        /// The position is not valid; the encoder's LED is red.
-        error: Error[1];
-        /// The position is valid, but the status names something near its limit; LED yellow.
-        warning: Warning[1];
-        /// Battery, magnetic field, temperature and speed.
-        status: Status[6], bits = STATUS;
+        include HEALTH;
         include AFTER;
     }
 }
@@ -88,20 +84,32 @@ pub fn shapes(table: &'static Layout, profile: &Profile, bits: Bits<'_>) -> Resu
     let plain = Shape::of(*profile);
     let word = Resolved::new(table, plain).len as u32;
     let spare = (bits.len() as u32).checked_sub(word).ok_or(word)?;
-    let all = |level: bool| (0..spare as usize).all(|at| bits.bit(at) == level);
-    let shape = match profile.justify {
-        Justify::Left => Shape {
-            tail: spare,
-            ..plain
-        },
-        Justify::Right if all(true) => Shape {
+    Ok(with_spare(profile, plain, bits, spare))
+}
+
+/// The shapes of a line with `spare` bits beside what it should hold, the likeliest first.
+#[must_use]
+pub fn with_spare(profile: &Profile, plain: Shape, bits: Bits<'_>, spare: u32) -> Shapes {
+    let idle = (0..spare as usize).all(|at| bits.bit(at));
+    let before = match idle {
+        true => Shape {
             idle: spare,
             ..plain
         },
-        Justify::Right => Shape {
+        false => Shape {
             unused: spare,
             ..plain
         },
     };
-    Ok([Some(shape), None, None])
+    let behind = Shape {
+        tail: spare,
+        ..plain
+    };
+    let (first, second) = match profile.justify {
+        Justify::Left => (behind, before),
+        Justify::Right => (before, behind),
+    };
+    // One 0 in front may as well be the clock too many behind the word; a 1 is the line idle.
+    let either = spare == 1 && !idle && !bits.len().is_multiple_of(8);
+    [Some(first), either.then_some(second), None]
 }

@@ -36,6 +36,7 @@ pub const SPEC: Spec = Spec {
     title: "SSI7",
     link: Link::Clocked,
     parameters: &["angle-bits", "frame-bits", "justify"],
+    quantities: &["parity"],
     limits: Limits {
         angle: POSITION,
         turns: 0,

@@ -24,7 +24,7 @@
 
 use super::{
     Format, Limits, Link, Spec,
-    ssi::{AFTER, BEFORE, shapes as plain_shapes},
+    ssi::{AFTER, BEFORE, shapes as plain_shapes, with_spare},
 };
 use crate::{
     bits::Bits,
@@ -49,6 +49,7 @@ pub const SPEC: Spec = Spec {
         "parity",
         "justify",
     ],
+    quantities: &["parity"],
     limits: Limits {
         angle: 18,
         turns: 16,
@@ -108,7 +109,7 @@ const fn number(p: &Profile) -> u32 {
 const fn left(p: &Profile, room: u32) -> u32 {
     let left = LEFT.saturating_sub(p.turns_bits);
     // A single-turn word has no left half unless it is as long as one that has.
-    if p.turns_bits > 0 || room >= left {
+    if p.turns_bits > 0 || room >= left && p.frame_bits >= 2 * LEFT {
         left
     } else {
         0
@@ -158,15 +159,16 @@ pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
     if times < 2 || rest >= 8 || (narrow && rest > 0) {
         return Ok(one);
     }
-    let (unused, tail) = match profile.justify {
-        Justify::Left => (0, rest as u32),
-        Justify::Right => (rest as u32, 0),
-    };
-    let repeated = Shape {
-        unused,
-        tail,
+    let plain = Shape {
         repeats: times as u32 - 1,
         ..Shape::of(*profile)
     };
-    Ok([Some(repeated), None, None])
+    let shapes = with_spare(profile, plain, bits, rest as u32);
+    if rest != 1 {
+        return Ok(shapes);
+    }
+    // A clock more for each word, 14 for 13 bits, leaves a 0 behind the last one too.
+    let behind = Shape { tail: 1, ..plain };
+    let idle = bits.bit(0).then_some(Shape { idle: 1, ..plain });
+    Ok([Some(behind), idle, None])
 }

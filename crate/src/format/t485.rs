@@ -22,8 +22,9 @@
 
 use super::{Format, Limits, Link, Spec};
 use crate::{
+    bits::Bits,
     check::Checksum,
-    layout::{Check, Layout, Role, StatusBit, layout},
+    layout::{Check, Layout, Resolved, Role, Shape, StatusBit, layout},
     profile::{Dialect, Profile},
 };
 
@@ -33,6 +34,7 @@ pub const SPEC: Spec = Spec {
     title: "T485",
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "dialect", "baud"],
+    quantities: &["parity", "operation", "enid", "alarm"],
     limits: Limits {
         angle: 24,
         turns: 24,
@@ -44,6 +46,9 @@ pub const SPEC: Spec = Spec {
         ..Profile::base(Format::T485)
     },
 };
+
+/// Bytes of Tamagawa's EEPROM.
+pub const MEMORY_SIZE: u8 = 128;
 
 /// A request of the host, named by its effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -148,6 +153,13 @@ impl Request {
             Self::MemoryWrite | Self::MemoryRead => &MEMORY,
         }
     }
+}
+
+/// Whether a byte can be a control field: its fixed bits and its parity hold.
+#[must_use]
+pub fn is_control(byte: u8) -> bool {
+    let head = Resolved::new(&HEAD, Shape::of(SPEC.default));
+    head.holds(Bits::of_bytes(&[byte]))
 }
 
 /// The status field (Tamagawa SF).

@@ -101,6 +101,15 @@ impl<'b> Chain<'b> {
         self.redundancy < 16 && far(last, first) && far(first, second)
     }
 
+    /// Whether more than one frame begins with this byte.
+    pub(super) fn begins_again(&self, first: u8) -> bool {
+        let frames = self.frames[..self.passes].iter();
+        frames
+            .filter(|(_, frame)| frame.first() == Some(&first))
+            .count()
+            > 1
+    }
+
     pub(super) fn visits(&self, at: usize) -> bool {
         self.frames[..self.passes]
             .iter()

@@ -45,7 +45,10 @@ impl Framer {
             return Step::Frame(layout, Trust::Kept);
         }
         let next = &behind[..behind.len().min(LINE)];
-        if open && next.len() < LINE && !next.contains(&b'\n') {
+        // At the start of a stream two lines must bear the first one out.
+        let needed = if self.last.is_some() { 1 } else { 2 };
+        let lines = next.iter().filter(|byte| **byte == b'\n').count();
+        if open && next.len() < LINE && lines < needed {
             return Step::Wait;
         }
         if self.leaps(decoder, layout, line, next) {
@@ -55,16 +58,27 @@ impl Framer {
         }
     }
 
-    /// Whether a position lies off the way from the one before to the one behind it, as it does
-    /// when a digit was lost or changed.
+    /// Whether a position lies off the way between its two nearest neighbours, as it does when a
+    /// digit was lost or changed: the line before and the one behind, or at an end of the stream
+    /// the two that there are.
     fn leaps(&self, decoder: &Decoder, layout: &Resolved, line: &[u8], behind: &[u8]) -> bool {
-        let next = passing(decoder, behind)
-            .and_then(|layout| Position::of(layout, &behind[..layout.len / 8]));
-        let (Some(last), Some(here), Some(next)) = (self.last, Position::of(layout, line), next)
-        else {
+        let read = |bytes: &[u8]| {
+            let layout = passing(decoder, bytes)?;
+            let len = layout.len / 8;
+            Some((Position::of(layout, &bytes[..len])?, len))
+        };
+        let next = read(behind);
+        let second = next.and_then(|(_, len)| read(&behind[len..]));
+        let neighbours = match (self.last, next) {
+            (Some(last), Some((next, _))) => Some((last, next)),
+            (Some(last), None) => self.earlier.zip(Some(last)),
+            (None, Some((next, _))) => second.map(|(second, _)| (next, second)),
+            (None, None) => None,
+        };
+        let (Some((one, other)), Some(here)) = (neighbours, Position::of(layout, line)) else {
             return false;
         };
-        let most = 2.0 * last.distance(next) + SMALL;
-        here.distance(last) > most && here.distance(next) > most
+        let most = 2.0 * one.distance(other) + SMALL;
+        here.distance(one) > most && here.distance(other) > most
     }
 }

@@ -22,6 +22,9 @@ impl Framer {
         let first = decoder.layout(rest);
         let anchored = self.held || self.contiguous;
         let mut own = None;
+        if !passes && is_before_reply(decoder, rest, self.last) {
+            return Step::Skip(1, Why::Request);
+        }
         if passes || (anchored && first.is_some_and(|layout| layout.len / 8 <= rest.len())) {
             let chain = chain(decoder, rest, 0, self.last);
             let bonus = if self.held {
@@ -57,16 +60,19 @@ impl Framer {
                     let confirmed = anchored
                         || own.passes > 1
                         || decoder.profile().format.spec().link != Link::Stream;
+                    let frame = &rest[..layout.len / 8];
+                    let unrivalled = anchored && other.is_none() && layout.is_sound(frame);
                     let sure = lead
                         && confirmed
-                        && own.score >= ENOUGH
+                        && (own.score >= ENOUGH || unrivalled)
+                        && self.is_addressed(decoder, &own, frame, rest.len(), anchored)
                         && (self.held || !own.leaps(self.last));
                     Step::Frame(layout, if sure { Trust::Sure } else { Trust::Unsure })
                 } else if own.visits(1) {
                     Step::Skip(1, Why::Request)
                 } else if own.passes > 0 {
                     Step::Frame(layout, Trust::Kept)
-                } else if self.held || layout.len / 8 == rest.len() {
+                } else if self.held || ends_whole(decoder, layout, rest, anchored) {
                     Step::Frame(layout, Trust::Last)
                 } else {
                     Step::Skip(1, Why::NoFrame)
@@ -84,6 +90,21 @@ impl Framer {
             (_, Some((shift, _))) => skip(decoder, rest, shift),
             (_, None) => self.nothing(decoder, rest, anchored),
         }
+    }
+
+    /// Whether a BUS frame can be trusted to come from the device that it names: the profile's,
+    /// one that is heard again, or the only one of a dump.
+    fn is_addressed(
+        &self,
+        decoder: &Decoder,
+        own: &Chain<'_>,
+        frame: &[u8],
+        rest: usize,
+        anchored: bool,
+    ) -> bool {
+        let known = decoder.is_known_lead(frame[0], self.previous.first().copied());
+        let alone = anchored && frame.len() == rest;
+        decoder.names(frame[0]) >= 0 && (known || alone || own.begins_again(frame[0]))
     }
 
     /// No phase of the next frame passes.
@@ -105,6 +126,24 @@ impl Framer {
         let judged = 1..decoder.longest().min(rest.len());
         Step::Skip(judged.end.max(1), Why::NoFrame)
     }
+}
+
+/// Whether the first byte is a request whose reply, broken as it is, stands behind it.
+fn is_before_reply(decoder: &Decoder, rest: &[u8], last: Option<Position>) -> bool {
+    if !decoder.is_request(rest[0]) {
+        return false;
+    }
+    let echoed = decoder.echoes() && rest.get(1) == Some(&rest[0]);
+    let behind = decoder.layout(&rest[1..]);
+    let alone = behind.is_some_and(|layout| layout.len / 8 + 1 == rest.len());
+    echoed || alone || chain(decoder, rest, 1, last).passes > chain(decoder, rest, 0, last).passes
+}
+
+/// Whether what is left of a dump is whole frames from here on.
+fn ends_whole(decoder: &Decoder, layout: &Resolved, rest: &[u8], anchored: bool) -> bool {
+    let len = layout.len / 8;
+    let few = rest.len() < (WINDOW + 2) * (decoder.longest() + 1);
+    len == rest.len() || anchored && few && rest.len().is_multiple_of(len)
 }
 
 fn skip<'d>(decoder: &Decoder, rest: &[u8], count: usize) -> Step<'d> {

@@ -220,10 +220,10 @@ impl Resolved {
         !(self.is_zero_led && frame.last() == Some(&0))
     }
 
-    /// The same of the frame at the start of `bytes`; `None` where it does not hold, or is not
+    /// The frame at the start of `bytes` as a number, and whether it is sound; `None` where it does not hold, or is not
     /// one that is judged as one word out of eight bytes.
     #[inline(always)]
-    pub(crate) fn is_sound_word(&self, bytes: &[u8]) -> Option<bool> {
+    pub(crate) fn is_sound_word(&self, bytes: &[u8]) -> Option<(u64, bool)> {
         let fast = self.fast.as_deref().filter(|_| self.len <= WORD * 8)?;
         let chunk = bytes.first_chunk::<WORD>()?;
         let word = bits::above(u64::from_be_bytes(*chunk), (WORD * 8 - self.len) as u32);
@@ -231,7 +231,7 @@ impl Resolved {
         let mut sum = fast.none;
         fast.last.judge(word, &mut wrong, &mut sum);
         let holds = wrong == 0 && sum == 0;
-        holds.then(|| !(self.is_zero_led && bits::low_byte(word) == 0))
+        holds.then(|| (word, !(self.is_zero_led && bits::low_byte(word) == 0)))
     }
 
     /// Position and health of a frame whose checks hold; `None` where the layout has not been

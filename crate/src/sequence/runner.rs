@@ -4,15 +4,17 @@ use super::{Change, Expect, Holds, Proof, Script, Send, Step, Stop};
 use crate::{
     bits::{self, Bits},
     decode::Decoder,
-    format::{Format, bus::Operation, t485},
+    format::{Format, TIMES, bus::Operation, t485},
     layout::{Resolved, Shape},
     reading::Values,
     session::{Micros, QUIET, TIMEOUT},
 };
 use alloc::{collections::VecDeque, vec::Vec};
 
-/// At this count an encoder acts.
-const TEN: u8 = 10;
+/// How long a line that talks without being asked is borne with, in microseconds.
+const PATIENCE: Micros = 1_000_000;
+/// More bytes than any reply, its echo and its double.
+const FLOOD: usize = 64;
 
 /// What a running sequence has to say.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,8 +45,11 @@ pub enum Event {
 enum State {
     /// The next command goes out at this time, when the line has been quiet.
     Ready(Micros),
-    /// A command is out; judged at this time.
-    Waiting(Micros),
+    /// A command is out since `sent`; judged at `until`.
+    Waiting {
+        sent: Micros,
+        until: Micros,
+    },
     Ended,
 }
 
@@ -65,6 +70,7 @@ pub struct Runner {
     script: &'static Script,
     /// Which command is next; 0 is the one before, the last is the one after.
     at: usize,
+    begun: Micros,
     state: State,
     sent: Vec<u8>,
     received: Vec<u8>,
@@ -83,7 +89,7 @@ impl Runner {
     pub fn new(decoder: &Decoder, change: Change, now: Micros) -> Option<Self> {
         let fits = match change {
             Change::Address(address) => address < 32,
-            Change::Memory { address, .. } => address < 128,
+            Change::Memory { address, .. } => address < t485::MEMORY_SIZE,
             _ => true,
         };
         let script = change.script(decoder.profile()).filter(|_| fits)?;
@@ -92,6 +98,7 @@ impl Runner {
             change,
             script,
             at: 0,
+            begun: now,
             state: State::Ready(now + QUIET),
             sent: Vec::new(),
             received: Vec::new(),
@@ -118,7 +125,7 @@ impl Runner {
     #[must_use]
     pub const fn deadline(&self) -> Micros {
         match self.state {
-            State::Ready(at) | State::Waiting(at) => at,
+            State::Ready(at) | State::Waiting { until: at, .. } => at,
             State::Ended => Micros::MAX,
         }
     }
@@ -142,15 +149,18 @@ impl Runner {
         }
         match self.state {
             // Before the first command a session may still have left something on the way.
-            State::Ready(at) if self.at == 0 => self.state = State::Ready(at.max(now + QUIET)),
+            State::Ready(at) if self.at == 0 && now < self.begun + PATIENCE => {
+                self.state = State::Ready(at.max(now + QUIET));
+            }
             State::Ready(_) => self.end(Some(Stop::Unasked)),
-            State::Waiting(until) => {
+            State::Waiting { sent, until } => {
                 self.received.extend_from_slice(bytes);
-                let quiet = match self.step().0.expect {
+                let until = match self.step().0.expect {
                     Expect::Silence => until,
-                    _ => now + QUIET,
+                    _ if self.received.len() > FLOOD => now,
+                    _ => (now + QUIET).min(sent + PATIENCE),
                 };
-                self.state = State::Waiting(quiet);
+                self.state = State::Waiting { sent, until };
             }
             State::Ended => {}
         }
@@ -168,9 +178,12 @@ impl Runner {
                     .bytes(self.decoder.profile(), self.step().0.send);
                 self.received.clear();
                 self.output.push_back(Event::Transmit(self.sent.clone()));
-                self.state = State::Waiting(now + TIMEOUT);
+                self.state = State::Waiting {
+                    sent: now,
+                    until: now + TIMEOUT,
+                };
             }
-            State::Waiting(_) => self.judge(now),
+            State::Waiting { .. } => self.judge(now),
             State::Ended => {}
         }
     }
@@ -282,12 +295,12 @@ impl Runner {
     fn end(&mut self, stop: Option<Stop>) {
         // The encoder acts on the command `acts`.
         let acts = self.total() - 2;
-        let out = matches!(self.state, State::Waiting(_));
+        let out = matches!(self.state, State::Waiting { .. });
         let counted = self.script.proof == Proof::Count;
         let holds = match stop {
             None => self.proven(),
             // Commands of somebody else may have made it count to the end before.
-            Some(Stop::WrongCount { received, .. }) if received >= TEN => Holds::Unknown,
+            Some(Stop::WrongCount { received, .. }) if received >= TIMES => Holds::Unknown,
             Some(_) if self.at > acts && counted => Holds::New,
             Some(_) if self.at > acts => Holds::Unknown,
             Some(Stop::WrongCount { .. } | Stop::NotUnderstood) => Holds::Old,

@@ -6,7 +6,7 @@ use crate::{
     format::{
         Format,
         bus::{self, Operation},
-        t485::Request,
+        t485::{self, Request},
     },
     layout::{Resolved, Role, Shape},
     profile::Profile,
@@ -94,7 +94,8 @@ impl Ask {
     ///
     /// # Errors
     ///
-    /// The request would change the encoder, or the format is not T485.
+    /// The request would change the encoder, its dialect does not know it, the EEPROM has no such
+    /// address, or the format is not T485.
     pub fn t485(decoder: &Decoder, request: Request, memory: u8) -> Result<Self, Refusal> {
         let format = decoder.profile().format;
         if format != Format::T485 {
@@ -102,6 +103,10 @@ impl Ask {
         }
         if request.changes_encoder() {
             return Err(Refusal::ChangesEncoder(request.byte()));
+        }
+        // An encoder that does not know it would take each of its bytes for a request.
+        if !request.is_known_to(decoder.profile().dialect) || memory >= t485::MEMORY_SIZE {
+            return Err(Refusal::NotOf(format));
         }
         let bytes = request.bytes(decoder.profile(), memory, 0);
         Ok(Self {

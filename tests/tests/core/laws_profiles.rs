@@ -29,7 +29,7 @@ fn words(name: &str, format: Format) -> Vec<String> {
     let limits = format.limits();
     match name {
         "angle-bits" => numbers(&[1, 2, 11, limits.angle]),
-        "turns-bits" => numbers(&[0, 1, 5, limits.turns]),
+        "turns-bits" => numbers(&[0, 1, 5, limits.turns.min(32)]),
         "status-bits" => (0..=8).map(|bits: u32| bits.to_string()).collect(),
         "ack-bits" => numbers(&[1, 5, 64]),
         "command" => Command::ALL

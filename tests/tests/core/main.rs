@@ -16,6 +16,7 @@ mod laws_formats;
 mod laws_profiles;
 mod laws_ssi;
 mod layouts;
+mod rivals;
 mod sequences;
 mod sessions;
 mod streams;
