@@ -109,6 +109,7 @@ const NO_LEAD: Lead = Lead {
     request: false,
     names: 0,
     unsure: false,
+    kind: None,
 };
 
 /// The shapes that a line of a dump can have, the likeliest first.
@@ -137,6 +138,8 @@ struct Lead {
     names: i8,
     /// Whether an encoder may not know the request, and answer with another layout.
     unsure: bool,
+    /// See [`Decoder::kind`].
+    kind: Option<u8>,
 }
 
 impl Decoder {
@@ -212,6 +215,11 @@ impl Decoder {
             layout: index.map_or(u8::MAX, |index| index as u8),
             request,
             names,
+            kind: match self.echoes() {
+                _ if request || names < 0 => None,
+                true => Some(byte),
+                false => index.map(|index| index as u8),
+            },
             unsure: asked.is_some_and(|asked| !asked.is_known_to(Dialect::Mpp)),
         }
     }
@@ -325,15 +333,11 @@ impl Decoder {
         layout.encode(&values)
     }
 
-    /// Whether `byte` begins a frame of the same layout as `like` does, and is no request.
+    /// What kind of frame `byte` begins: those of one kind may follow one another without being
+    /// weighed. A request begins none.
     #[inline]
-    pub(crate) const fn begins_alike(&self, byte: u8, like: u8) -> bool {
-        let lead = self.leads[byte as usize];
-        let alike = match self.echoes() {
-            true => byte == like && lead.names >= 0,
-            false => lead.layout == self.leads[like as usize].layout,
-        };
-        alike && !lead.request
+    pub(crate) const fn kind(&self, byte: u8) -> Option<u8> {
+        self.leads[byte as usize].kind
     }
 
     /// Whether `byte` is a request that may stand before its reply in a dump.

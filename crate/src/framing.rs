@@ -279,6 +279,7 @@ impl Framer {
         let mut moved = None;
         while let Some(layout) = self.beyond_doubt(decoder, &self.buffer[at..]) {
             let len = layout.len / 8;
+            let kind = decoder.kind(self.buffer[at]);
             let mut repeats = self.previous == self.buffer[at..at + len];
             let mut word = bits::word(&self.buffer[at..at + len.min(8)]);
             loop {
@@ -298,12 +299,12 @@ impl Framer {
                 at += len;
                 // What follows is mostly the same kind of frame, which is judged here.
                 let next = &self.buffer[at..];
-                let alike = next
-                    .first()
-                    .is_some_and(|byte| decoder.begins_alike(*byte, bytes[0]));
-                let Some((new, true)) = layout.is_sound_word(next).filter(|_| alike) else {
+                let Some((new, true)) = layout.is_sound_word(next) else {
                     break;
                 };
+                if kind.is_none() || decoder.kind(next[0]) != kind {
+                    break;
+                }
                 let same = new == word;
                 if repeats && !same {
                     break;

@@ -5,7 +5,7 @@ const expectDemo = async (page) => {
   await at(page, 'demo').click();
   await expectLink(page, 'reading');
   const first = await number(page, 'angle');
-  await until(page, 'angle', (angle) => Math.abs(angle - first) > 10_000);
+  await until(page, 'angle', (angle) => Math.abs(angle - first) > 100);
   await until(page, 'frames-ok', (frames) => frames > 500);
   expect(await number(page, 'frames-bad')).toBe(0);
 };
