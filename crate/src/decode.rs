@@ -1,16 +1,20 @@
 //! From bytes and bit strings to frames.
 
+mod leads;
+mod lines;
+
 use crate::{
     bits::{self, BitString, Bits, Span},
     dump::Dump,
     explain::Note,
     format::{Format, Medium, asi1, asi4, biss_c, bus, period, ssi, ssi_tree, ssi7, t485},
     framing::{Framer, Piece, PieceKind, Why},
-    layout::{Layout, Resolved, Shape},
-    profile::{Dialect, Profile, ProfileError},
+    layout::{Resolved, Shape},
+    profile::{Profile, ProfileError},
     reading::{Fault, FaultKind, Reading, Values},
 };
 use alloc::{borrow::Cow, vec, vec::Vec};
+use leads::{Lead, NO_LEAD};
 
 /// A frame: its bits, and the layout that reads them.
 #[derive(Clone, Debug)]
@@ -98,20 +102,6 @@ pub struct Summary {
     pub skipped: u64,
 }
 
-/// What the profile's own address speaks for a BUS frame, in bits.
-const OWN_DEVICE: i8 = 6;
-/// What a parity of the other sense speaks against it.
-const OTHER_PARITY: i8 = -6;
-
-/// A byte that begins no frame.
-const NO_LEAD: Lead = Lead {
-    layout: u8::MAX,
-    request: false,
-    names: 0,
-    unsure: false,
-    kind: None,
-};
-
 /// The shapes that a line of a dump can have, the likeliest first.
 ///
 /// Which one is meant is decided over all lines of a dump, by [`Decoder::dump`].
@@ -125,21 +115,6 @@ pub struct Decoder {
     layouts: Vec<Resolved>,
     /// What each first byte says, for byte formats.
     leads: [Lead; 256],
-}
-
-/// What the first byte of a frame says.
-#[derive(Clone, Copy, Debug)]
-struct Lead {
-    /// Which layout the frame has; one that does not exist where there is none.
-    layout: u8,
-    /// Whether it is a request that may stand before its reply in a dump.
-    request: bool,
-    /// How much it speaks for a frame beyond what the checks count, in bits.
-    names: i8,
-    /// Whether an encoder may not know the request, and answer with another layout.
-    unsure: bool,
-    /// See [`Decoder::kind`].
-    kind: Option<u8>,
 }
 
 impl Decoder {
@@ -187,93 +162,10 @@ impl Decoder {
         Ok(decoder)
     }
 
-    fn lead(&self, byte: u8) -> Lead {
-        let asked = t485::Request::of_byte(byte).filter(|_| self.profile.format == Format::T485);
-        let index = match self.profile.format {
-            Format::T485 => match asked {
-                Some(asked) => t485::Request::ALL
-                    .iter()
-                    .position(|request| *request == asked),
-                // Any other control byte is answered with the angle.
-                None => t485::is_control(byte).then_some(0),
-            },
-            Format::Bus => {
-                let code = self.layouts[0].values(Bits::of_bytes(&[byte])).operation;
-                let mut known = bus::Operation::ALL.iter();
-                known.position(|operation| Some(operation.code()) == code)
-            }
-            _ => Some(0),
-        };
-        let names = self.weigh_lead(byte);
-        let request = match self.profile.format {
-            Format::Rs485 => byte == self.profile.command.byte(),
-            Format::T485 => asked.is_some(),
-            Format::Bus => names > 0,
-            _ => false,
-        };
-        Lead {
-            layout: index.map_or(u8::MAX, |index| index as u8),
-            request,
-            names,
-            kind: match self.echoes() {
-                _ if request || names < 0 => None,
-                true => Some(byte),
-                false => index.map(|index| index as u8),
-            },
-            unsure: asked.is_some_and(|asked| !asked.is_known_to(Dialect::Mpp)),
-        }
-    }
-
-    /// The CRC of BUS holds for a frame that is read a byte late, as the next one begins with
-    /// the same byte: what remains is its address and a parity that is likely.
-    fn weigh_lead(&self, byte: u8) -> i8 {
-        if self.profile.format != Format::Bus {
-            return 0;
-        }
-        let values = self.layouts[0].values(Bits::of_bytes(&[byte]));
-        let own = values.address.map(u32::from) == Some(self.profile.address);
-        let parity = match values.parity {
-            Some(parity) if parity.ok() => 1,
-            Some(_) => OTHER_PARITY,
-            None => 0,
-        };
-        parity + if own { OWN_DEVICE } else { 0 }
-    }
-
     /// The profile.
     #[must_use]
     pub const fn profile(&self) -> &Profile {
         &self.profile
-    }
-
-    /// The layout of a frame of a byte format that begins `bytes`; `None` where no frame can.
-    ///
-    /// The first byte tells it, except in ASI4, whose lines end where they end.
-    #[must_use]
-    #[inline]
-    pub fn layout(&self, bytes: &[u8]) -> Option<&Resolved> {
-        if self.profile.format == Format::Asi4 {
-            return self.layouts.get(asi4::digits(bytes)? - 1);
-        }
-        let lead = self.leads[usize::from(*bytes.first()?)];
-        let layout = self.layouts.get(usize::from(lead.layout))?;
-        if lead.unsure {
-            return Some(self.refused(bytes).unwrap_or(layout));
-        }
-        Some(layout)
-    }
-
-    /// The layout of the reply to a T485 request that the encoder did not understand: it sends
-    /// the angle instead.
-    fn refused(&self, bytes: &[u8]) -> Option<&Resolved> {
-        let holds = |layout: &&Resolved| {
-            let frame = bytes.get(..layout.len / 8);
-            frame.is_some_and(|frame| layout.holds(Bits::of_bytes(frame)))
-        };
-        let own = self.leads[usize::from(*bytes.first()?)].layout;
-        let own = self.layouts.get(usize::from(own))?;
-        let angle = self.layouts.first()?;
-        (!holds(&own) && holds(&angle)).then_some(angle)
     }
 
     /// The layout that describes a whole frame, for explaining and encoding.
@@ -333,43 +225,6 @@ impl Decoder {
         layout.encode(&values)
     }
 
-    /// What kind of frame `byte` begins: those of one kind may follow one another without being
-    /// weighed. A request begins none.
-    #[inline]
-    pub(crate) const fn kind(&self, byte: u8) -> Option<u8> {
-        self.leads[byte as usize].kind
-    }
-
-    /// Whether `byte` is a request that may stand before its reply in a dump.
-    #[must_use]
-    #[inline]
-    pub fn is_request(&self, byte: u8) -> bool {
-        self.leads[usize::from(byte)].request
-    }
-
-    /// Whether a reply begins with the byte that was asked.
-    #[must_use]
-    pub const fn echoes(&self) -> bool {
-        matches!(self.profile.format, Format::T485 | Format::Bus)
-    }
-
-    /// Whether a frame that begins with `byte` needs no more proof of its place than its checks.
-    /// The CRC of BUS holds in other phases too, so the device must be the profile's, or the one
-    /// of the frame before.
-    #[inline]
-    pub(crate) fn is_known_lead(&self, byte: u8, before: Option<u8>) -> bool {
-        if self.profile.format != Format::Bus {
-            return true;
-        }
-        let names = self.names(byte);
-        names >= OWN_DEVICE.into() || names > 0 && before == Some(byte)
-    }
-
-    /// How much the first byte of a frame speaks for it beyond what its checks count, in bits.
-    pub(crate) fn names(&self, first: u8) -> i32 {
-        self.leads[usize::from(first)].names.into()
-    }
-
     /// Bytes of the longest frame.
     #[must_use]
     pub fn longest(&self) -> usize {
@@ -392,80 +247,6 @@ impl Decoder {
         })
     }
 
-    /// Reads one line of a bit format.
-    ///
-    /// # Errors
-    ///
-    /// The line is too short for a frame.
-    pub fn line<'a>(&'a self, bits: Bits<'a>) -> Result<Frame<'a>, Why> {
-        let shapes = self.shapes(bits);
-        let chosen = self.likeliest(core::iter::once((&shapes, bits)));
-        self.line_as(&shapes, bits, chosen)
-    }
-
-    fn shapes(&self, bits: Bits<'_>) -> Result<Shapes, Why> {
-        let found = match self.profile.format {
-            Format::BissC => biss_c::shapes(&self.profile, bits),
-            Format::SsiTree => ssi_tree::shapes(&self.profile, bits),
-            _ => ssi::shapes(self.table(), &self.profile, bits),
-        };
-        found.map_err(|need| Why::Truncated {
-            have: bits.len(),
-            need: need as usize,
-        })
-    }
-
-    /// Which of the shapes holds its CRC in most lines; of equals the first.
-    fn likeliest<'a>(
-        &self,
-        lines: impl Iterator<Item = (&'a Result<Shapes, Why>, Bits<'a>)>,
-    ) -> usize {
-        let mut passes = [0usize; 3];
-        for (shapes, bits) in lines {
-            for (count, shape) in passes.iter_mut().zip(shapes.iter().flatten()) {
-                *count += usize::from(shape.is_some_and(|shape| self.shaped(shape).holds(bits)));
-            }
-        }
-        let best = passes.iter().max().copied().unwrap_or(0);
-        passes.iter().position(|count| *count == best).unwrap_or(0)
-    }
-
-    fn line_as<'a>(
-        &'a self,
-        shapes: &Result<Shapes, Why>,
-        bits: Bits<'a>,
-        chosen: usize,
-    ) -> Result<Frame<'a>, Why> {
-        let shapes = shapes.as_ref().map_err(|why| *why)?;
-        let shape = shapes[chosen].or_else(|| shapes.iter().copied().flatten().next());
-        let shape = shape.ok_or(Why::NoFrame)?;
-        let layout = self.shaped(shape);
-        // Without a checksum, a clock too many may be on either side of a word.
-        let others = shapes.iter().flatten().filter(|other| **other != shape);
-        let rivals = others
-            .map(|other| self.shaped(*other))
-            .filter(|other| other.holds(bits) && other.reading(bits) != layout.reading(bits));
-        let sure = self.profile.format == Format::BissC || rivals.count() == 0;
-        Ok(Frame {
-            start: 0,
-            layout,
-            bits,
-            sure,
-        })
-    }
-
-    fn table(&self) -> &'static Layout {
-        self.layouts[0].layout
-    }
-
-    /// The layout of a shape; most lines have the shape of the profile.
-    fn shaped(&self, shape: Shape) -> Cow<'_, Resolved> {
-        match self.layouts.first() {
-            Some(layout) if layout.shape == shape => Cow::Borrowed(layout),
-            _ => Cow::Owned(Resolved::new(self.table(), shape)),
-        }
-    }
-
     /// Decodes a whole dump; `sink` gets every stretch of it in order.
     pub fn dump(&self, dump: &Dump, sink: &mut dyn FnMut(Decoded<'_>)) -> Summary {
         let mut summary = Summary::default();
@@ -482,44 +263,6 @@ impl Decoder {
             Medium::Bits => self.lines(dump, &mut summary, sink),
         }
         summary
-    }
-
-    fn lines(&self, dump: &Dump, summary: &mut Summary, sink: &mut dyn FnMut(Decoded<'_>)) {
-        let all: Vec<_> = dump
-            .lines
-            .iter()
-            .map(|line| self.shapes(line.bits.as_bits()))
-            .collect();
-        let lines = || dump.lines.iter().map(|line| line.bits.as_bits());
-        let chosen = self.likeliest(all.iter().zip(lines()));
-        let mut start = 0;
-        let as_bits = dump.is_bits();
-        for (shapes, bits) in all.iter().zip(lines()) {
-            let bytes = bits.bytes().len() as u64;
-            let here = if as_bits { start } else { start / 8 };
-            start += if as_bits {
-                bits.len()
-            } else {
-                bits.bytes().len() * 8
-            } as u64;
-            summary.bytes += bytes;
-            match self.line_as(shapes, bits, chosen) {
-                Ok(mut frame) => {
-                    frame.start = here;
-                    summary.frames += 1;
-                    summary.bad += u64::from(!frame.ok());
-                    sink(Decoded::Frame(frame));
-                }
-                Err(why) => {
-                    summary.skipped += bytes;
-                    sink(Decoded::Skip {
-                        start: here,
-                        bits,
-                        why,
-                    });
-                }
-            }
-        }
     }
 }
 
