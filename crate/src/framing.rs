@@ -328,19 +328,15 @@ impl Framer {
     fn beyond_doubt<'d>(&self, decoder: &'d Decoder, rest: &[u8]) -> Option<&'d Resolved> {
         let layout = passing(decoder, rest)?;
         let len = layout.len / 8;
-        if !layout.is_checked || !layout.is_sound(&rest[..len]) && !is_sound(decoder, &rest[len..])
-        {
+        let (frame, behind) = rest.split_at(len);
+        let sound = layout.is_checked && (layout.is_sound(frame) || is_sound(decoder, behind));
+        // A still shaft may repeat a frame in two phases that both pass for ever.
+        let leaves = self.repeats && self.previous != frame;
+        let known = decoder.is_known_lead(frame[0], self.previous.first().copied());
+        if !sound || leaves || !known {
             return None;
         }
         // A request before its reply may pass as the first byte of a frame.
-        let frame = &rest[..len];
-        // A still shaft may repeat a frame in two phases that both pass for ever.
-        if self.repeats && self.previous != frame {
-            return None;
-        }
-        if !decoder.is_known_lead(rest[0], self.previous.first().copied()) {
-            return None;
-        }
         let asks = decoder.is_request(rest[0])
             && (!decoder.echoes() || rest.get(1) == Some(&rest[0]))
             && (rest.len() == len || passing(decoder, &rest[1..]).is_some());

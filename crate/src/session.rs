@@ -253,8 +253,11 @@ impl Session {
         match self.state {
             State::Listening(_) | State::Fresh | State::Idle(_) | State::Draining(_) => {
                 self.skip(bytes, Why::Unasked);
-                let until = self.deadline().max(now + QUIET);
-                self.state = State::Draining(until);
+                let next = match self.deadline() {
+                    Micros::MAX => now,
+                    next => next,
+                };
+                self.state = State::Draining(next.max(now + QUIET));
             }
             State::Waiting { sent, until } => {
                 self.received.extend_from_slice(bytes);

@@ -63,6 +63,23 @@ test('parameters that few need are one click away', async ({ page }) => {
   }
 });
 
+test('an order code chooses the profile, and a wrong one is told where', async ({ page }) => {
+  await page.goto('/#/console');
+  await at(page, 'demo').click();
+  await page.getByText('Encoder settings').click();
+  const code = page.locator('input[name=model]');
+  await code.fill('PT-15B-25H-A-19M-D-N-A-M');
+  await code.blur();
+  await expect(at(page, 'profile')).toContainText('BUS 19 bit + 16 turns');
+  await expectLink(page, 'reading');
+  await code.fill('PT-15B-25H-A-19M-X-N-A-M');
+  await code.blur();
+  await expect(page.getByRole('alert')).toContainText('part 6');
+  await code.fill('PT-15B-25H-A-19M-S-N-A-M');
+  await code.blur();
+  await expect(page.getByRole('alert')).toContainText('SSI is clocked');
+});
+
 test('a link with a wrong parameter says what is wrong', async ({ page }) => {
   await page.goto('/#/console?format=t486');
   await expect(page.getByRole('alert')).toContainText('t486');

@@ -479,3 +479,25 @@ fn an_unplugged_encoder_neither_hears_nor_speaks() {
         assert!(encoder.poll_output(2 * SECOND).is_some());
     }
 }
+
+#[test]
+fn a_session_without_polls_waits_to_be_asked_whatever_comes() {
+    let decoder = decoder("format=bus");
+    let mut session = Session::of_devices(decoder.clone(), &[], 0).unwrap();
+    let mut bus = Bus {
+        devices: vec![encoder("format=bus", Shaft::still(7.5))],
+    };
+    session.handle_timeout(0);
+    session.handle_timeout(session.deadline());
+    session.handle_timeout(session.deadline());
+    assert_eq!(session.deadline(), Micros::MAX);
+    session.handle_input(SECOND, &[0x55]);
+    session.handle_timeout(session.deadline());
+    assert_eq!(session.deadline(), Micros::MAX);
+    session.ask(Ask::position(&decoder).unwrap()).unwrap();
+    let other = encoderscope_tests::decoder("format=rs485 command=1");
+    assert!(session.ask(Ask::position(&other).unwrap()).is_err());
+    let said = converse(&mut session, &mut bus, 3 * SECOND);
+    assert_eq!(readings(&session, &said).len(), 1);
+    assert_eq!(readings(&session, &said)[0].1.turns, Some(7));
+}

@@ -81,6 +81,24 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
             app.change_profile(format.default_profile());
         }
     };
+    let read_model = move |text: String| {
+        if text.trim().is_empty() {
+            return fault.set(None);
+        }
+        match Profile::parse([("model", text.trim())]) {
+            Ok(new) if offer == Offer::Serial && !new.format.is_serial() => {
+                fault.set(Some(format!(
+                    "{} is clocked, which a USB adapter cannot: decode a pasted dump instead",
+                    new.format.title()
+                )))
+            }
+            Ok(new) => {
+                fault.set(None);
+                app.change_profile(new);
+            }
+            Err(error) => fault.set(Some(error.to_string())),
+        }
+    };
     let formats = Format::ALL
         .iter()
         .filter(move |format| offer == Offer::All || format.is_serial());
@@ -119,6 +137,16 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
                 </select>
             </label>
             {move || shown(false)}
+            <label class="model">
+                "Or the order code"
+                <input
+                    name="model"
+                    placeholder="MPP-20-30-A-24BM-R-N-A-M"
+                    autocapitalize="characters"
+                    spellcheck="false"
+                    on:change:target=move |event| read_model(event.target().value())
+                />
+            </label>
             {move || has_rare().then(|| view! {
                 <details>
                     <summary>"More"</summary>
