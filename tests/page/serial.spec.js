@@ -60,8 +60,9 @@ for (const [name, query] of [
     await expect(at(page, 'link-state')).toContainText('unplugged');
     await expect(at(page, 'connect')).toHaveText('Reconnect');
 
+    // The browser says that it is back, and nobody needs to ask again.
     await plug(...options, 'still=0.25');
-    await at(page, 'connect').click();
+    await page.evaluate(() => navigator.serial.dispatchEvent(new Event('connect')));
     await expectLink(page, 'reading');
     await until(page, 'angle', (angle) => angle === 2 ** (name === 'T485' ? 21 : 22));
   });
@@ -93,6 +94,22 @@ for (const [name, query, angle] of [
     await encoder.unplug();
   });
 }
+
+test('an adapter keeps its name and the encoder behind it @serial', async ({ page }) => {
+  await plug('--format', 'rs485', '--command', 's', 'still=0.5');
+  await connect(page, 'format=rs485&command=s');
+  await expectLink(page, 'reading');
+  await page.locator('input[name=port-name]').fill('Bench adapter');
+  await page.locator('input[name=port-name]').blur();
+  await expect(at(page, 'port')).toContainText('Bench adapter');
+  await page.goto('about:blank');
+  await page.goto('/');
+  await expect(at(page, 'profile')).toContainText('RS485');
+  await expect(page).toHaveURL(/command=s/);
+  await at(page, 'connect').click();
+  await expectLink(page, 'reading');
+  await expect(page.getByText('Bench adapter').first()).toBeVisible();
+});
 
 test('a BUS device is read at its own address @serial', async ({ page }) => {
   await plug('--format', 'bus', '--address', '5', 'still=7.5', 'status=4');

@@ -5,7 +5,7 @@ use crate::{
     message::PortId,
 };
 use js_sys::{Array, Uint8Array};
-use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen::{JsCast, JsValue, closure::Closure};
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{
     ReadableStream, ReadableStreamDefaultReader, Serial, SerialOptions, SerialPort, WritableStream,
@@ -104,6 +104,15 @@ pub async fn ask() -> Result<PortId, JsValue> {
         .position(|port| js_sys::Object::is(port, &chosen))
         .unwrap_or(0);
     Ok(identity(index, &chosen))
+}
+
+/// Runs `then` whenever a port that the page has permission for is plugged in.
+pub fn on_plugged(then: impl Fn() + 'static) {
+    if let Some(serial) = serial() {
+        let listen = Closure::<dyn Fn()>::new(then);
+        serial.set_onconnect(Some(listen.as_ref().unchecked_ref()));
+        listen.forget();
+    }
 }
 
 /// A name for a port.

@@ -1,10 +1,10 @@
 //! The shell: areas, profile, theme, and the state that they share.
 
-use crate::{connection::Connection, console::Console, decode::Decode};
+use crate::{adapters, connection::Connection, console::Console, decode::Decode};
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
-    message::{PortId, Snapshot, ToEngine},
+    message::{Link, PortId, Snapshot, ToEngine},
     serial,
 };
 use leptos::{ev, prelude::*};
@@ -166,11 +166,30 @@ impl App {
         self.port.set(Some(port));
         self.source.set(Source::Port);
         let profile = self.profile.get_untracked();
+        adapters::remember(port, &profile);
         self.running.set(Some(profile));
         self.send(ToEngine::Open {
             port,
             profile: query(&profile),
         });
+    }
+
+    /// A port was plugged in: reads on where reading ended with the plug pulled out.
+    fn plugged(self) {
+        let lost = self.snapshot.get_untracked().link == Link::Lost;
+        if lost && self.source.get_untracked() == Source::Port {
+            self.connect();
+        } else {
+            leptos::task::spawn_local(self.refresh_ports());
+        }
+    }
+
+    /// Chooses a port, and the encoder that was behind it last.
+    pub(crate) fn choose_port(self, port: PortId) {
+        self.port.set(Some(port));
+        if let Some(profile) = adapters::recall(port) {
+            self.change_profile(profile);
+        }
     }
 
     /// Stops reading.
@@ -275,7 +294,16 @@ pub(crate) fn app(make_worker: &js_sys::Function) -> impl IntoView + use<> {
                 history.replace_state_with_url(&wasm_bindgen::JsValue::NULL, "", Some(&fragment));
         }
     });
-    leptos::task::spawn_local(app.refresh_ports());
+    serial::on_plugged(move || app.plugged());
+    let bare = Fragment::parse(&location_hash()).profile().is_none();
+    leptos::task::spawn_local(async move {
+        app.refresh_ports().await;
+        if let ([only], true) = (&app.ports.get_untracked()[..], bare)
+            && let Some(profile) = adapters::recall(*only)
+        {
+            app.change_profile(profile);
+        }
+    });
 
     view! {
         <header class="bar">

@@ -1,6 +1,7 @@
 //! The console: link, dial, status, frames.
 
 use crate::{
+    adapters,
     app::{App, Source},
     dial::{AngleDigits, Dial},
     profile_editor::{Offer, ProfileEditor},
@@ -102,7 +103,10 @@ fn LinkPanel() -> impl IntoView {
     let link = Memo::new(move |_| app.snapshot.get().link);
     let open = Memo::new(move |_| link.get().is_open());
     let title = move || match app.source.get() {
-        Source::Port => app.port.get().map_or("Serial port".into(), serial::name),
+        Source::Port => {
+            app.ports.track();
+            app.port.get().map_or("Serial port".into(), adapters::name)
+        }
         Source::Demo | Source::Preview => "Demo encoder".into(),
     };
     view! {
@@ -186,19 +190,34 @@ fn PortChooser() -> impl IntoView {
                         data-testid="port"
                         on:change:target=move |event| {
                             let index = event.target().value().parse::<usize>().unwrap_or(0);
-                            app.port.set(app.ports.get_untracked().get(index).copied());
+                            if let Some(port) = app.ports.get_untracked().get(index) {
+                                app.choose_port(*port);
+                            }
                         }
                     >
                         {move || missing().map(|port| view! {
-                            <option disabled selected>{serial::name(port)} " · not plugged in"</option>
+                            <option disabled selected>{adapters::name(port)} " · not plugged in"</option>
                         })}
                         {app.ports.get().into_iter().enumerate().map(|(index, port)| view! {
-                            <option value=index selected=move || app.port.get() == Some(port)>{serial::name(port)}</option>
+                            <option value=index selected=move || app.port.get() == Some(port)>{adapters::name(port)}</option>
                         }).collect_view()}
                     </select>
                 </label>
                 <button class="quiet" on:click=move |_| leptos::task::spawn_local(app.add_port())>"Add…"</button>
             </div>
+        })}
+        {move || app.port.get().map(|port| view! {
+            <label class="port-name">
+                "Name of this adapter"
+                <input
+                    name="port-name"
+                    prop:value=adapters::name(port)
+                    on:change:target=move |event| {
+                        adapters::rename(port, &event.target().value());
+                        app.ports.update(|_| ());
+                    }
+                />
+            </label>
         })}
     }
 }

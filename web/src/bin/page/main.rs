@@ -5,6 +5,7 @@
     reason = "the component macro writes public property structs"
 )]
 
+mod adapters;
 mod app;
 mod connection;
 mod console;
