@@ -90,7 +90,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
                 fault.set(Some(format!(
                     "{} is clocked, which a USB adapter cannot: decode a pasted dump instead",
                     new.format.title()
-                )))
+                )));
             }
             Ok(new) => {
                 fault.set(None);
