@@ -99,7 +99,8 @@ impl Runner {
             script,
             at: 0,
             begun: now,
-            state: State::Ready(now + QUIET),
+            // What was asked before may still be answered.
+            state: State::Ready(now + TIMEOUT),
             sent: Vec::new(),
             received: Vec::new(),
             echo: None,
