@@ -201,6 +201,18 @@ impl Format {
 /// 4, "BUS" set zero and set address).
 pub const TIMES: u8 = 10;
 
+/// Bits above the angle in the two bytes, or above 16 bits per turn three, that RS485, RS422,
+/// PERIOD and BUS send it in (MPP "RS485", note 2; "BUS").
+const fn angle_padding(profile: &Profile) -> u32 {
+    let bits = if profile.angle_bits > 16 { 24u32 } else { 16 };
+    bits.saturating_sub(profile.angle_bits)
+}
+
+/// Bits above the turn counter in its whole bytes.
+const fn turns_padding(profile: &Profile) -> u32 {
+    profile.turns_bits.next_multiple_of(8) - profile.turns_bits
+}
+
 layout! {
     /// Error, warning and status, as SSI, RS485, RS422, PERIOD and BUS send them.
     pub static HEALTH(p) {

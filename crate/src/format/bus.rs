@@ -20,7 +20,7 @@
 //! bits; models XXM count 16 bits and sleep 32 µs up to 16 bits per turn, 36 µs above. The sense
 //! of the parity is likely, not certain: it is shown, and a frame is not refused for it.
 
-use super::{Format, HEALTH, Limits, Link, Spec};
+use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, turns_padding};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, Resolved, Shape, Weight, layout},
@@ -176,13 +176,13 @@ layout! {
         include HEALTH;
         le {
             /// The bits above the angle are 0: the angle is right-aligned in two or three bytes.
-            angle_padding: Padding[if p.angle_bits > 16 { 24u32 } else { 16 }.saturating_sub(p.angle_bits)];
+            angle_padding: Padding[angle_padding(p)];
             /// Angle within one turn.
             angle: Angle[p.angle_bits];
         }
         le {
             /// The bits above the turn counter are 0.
-            turns_padding: Padding[p.turns_bits.next_multiple_of(8) - p.turns_bits];
+            turns_padding: Padding[turns_padding(p)];
             /// Whole turns; only models XXM send them.
             turns: Turns[p.turns_bits];
         }

@@ -20,7 +20,7 @@
 //! (single turn: five), 0x31 six. PT's commands 0x21, 0731 and 0704 are 0x31, 0x64 and 0x74.
 //! PT's CRC table is damaged; the polynomial is right.
 
-use super::{Format, HEALTH, Limits, Link, Spec};
+use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, turns_padding};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, layout},
@@ -130,11 +130,11 @@ layout! {
     /// Turns, where the model counts them, and angle.
     pub static DATA(p) {
         /// The bits above the turn counter are 0.
-        turns_padding: Padding[p.turns_bits.next_multiple_of(8) - p.turns_bits];
+        turns_padding: Padding[turns_padding(p)];
         /// Whole turns; only models M, BM and FM send them.
         turns: Turns[p.turns_bits];
         /// The bits above the angle are 0: the angle is right-aligned in two or three bytes.
-        angle_padding: Padding[if p.angle_bits > 16 { 24u32 } else { 16 }.saturating_sub(p.angle_bits)];
+        angle_padding: Padding[angle_padding(p)];
         /// Angle within one turn.
         angle: Angle[p.angle_bits];
     }
