@@ -5,6 +5,7 @@ use encoderscope::{
     bits::Bits,
     emulator::{Battery, Bus, Counter, Direction, Emulator, Faults, Shaft, ZeroInput},
     format::{Format, Link, t485},
+    layout::Resolved,
     profile::Profile,
     reading::{Reading, Values},
     session::{Ask, Micros, Output, Session},
@@ -38,29 +39,25 @@ fn converse(session: &mut Session, bus: &mut Bus, until: Micros) -> Vec<(Micros,
     out
 }
 
+/// A frame that the session is sure of, with the layout that reads it.
+fn sure<'a>(session: &'a Session, output: &'a Output) -> Option<(&'a Resolved, Bits<'a>)> {
+    match output {
+        Output::Frame {
+            bytes, sure: true, ..
+        } => Some((session.decoder().layout(bytes)?, Bits::of_bytes(bytes))),
+        _ => None,
+    }
+}
+
 fn values_of(session: &Session, output: &Output) -> Option<Values> {
-    let Output::Frame {
-        bytes, sure: true, ..
-    } = output
-    else {
-        return None;
-    };
-    let layout = session.decoder().layout(bytes)?;
-    let bits = Bits::of_bytes(bytes);
+    let (layout, bits) = sure(session, output)?;
     layout.holds(bits).then(|| layout.values(bits))
 }
 
 fn readings(session: &Session, said: &[(Micros, Output)]) -> Vec<(Micros, Reading)> {
     let each = said.iter().filter_map(|(at, output)| {
-        let Output::Frame {
-            bytes, sure: true, ..
-        } = output
-        else {
-            return None;
-        };
-        let layout = session.decoder().layout(bytes)?;
-        let reading = layout.reading(Bits::of_bytes(bytes)).ok().flatten()?;
-        Some((*at, reading))
+        let (layout, bits) = sure(session, output)?;
+        Some((*at, layout.reading(bits).ok().flatten()?))
     });
     each.collect()
 }
