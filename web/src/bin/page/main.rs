@@ -10,8 +10,12 @@ mod app;
 mod connection;
 mod console;
 mod decode;
+mod demo;
 mod dial;
 mod frame_view;
+mod link_panel;
+mod live;
+mod log;
 mod profile_editor;
 mod setting;
 

@@ -1,0 +1,128 @@
+//! The live view: dial, figures, status.
+
+use crate::{
+    app::{App, Source},
+    dial::{AngleDigits, Dial},
+};
+use encoderscope::explain::{grouped, grouped_signed};
+use encoderscope_web::message::{Lamp, Link, Shown};
+use leptos::prelude::*;
+
+#[component]
+pub(crate) fn Angle() -> impl IntoView {
+    let app = expect_context::<App>();
+    let shown = Memo::new(move |_| app.snapshot.get().reading);
+    let stale = move || shown.get().is_some() && app.snapshot.get().link != Link::Reading;
+    let heading = move || match app.source.get() {
+        Source::Port => "Angle",
+        Source::Demo | Source::Preview => "Demo · angle",
+    };
+    let counts = move || {
+        shown.get().map(|shown| {
+            let all = 2f64.powi(shown.angle_bits as i32);
+            format!(
+                "{} / {} counts",
+                grouped(shown.angle as u64),
+                grouped(all as u64)
+            )
+        })
+    };
+    let row = move |label: &'static str,
+                    testid: &'static str,
+                    read: fn(&Shown) -> Option<f64>,
+                    write: fn(f64) -> String| {
+        let value = Memo::new(move |_| shown.get().and_then(|shown| read(&shown)));
+        move || {
+            value.get().map(|_| {
+                let raw = move || value.get().unwrap_or_default();
+                view! {
+                    <dt>{label}</dt>
+                    <dd class=testid data-testid=testid data-value=move || raw().to_string()>
+                        {move || write(raw())}
+                    </dd>
+                }
+            })
+        }
+    };
+    view! {
+        <section class="panel angle" class:stale=stale>
+            <Dial degrees=Signal::derive(move || shown.get().map(|shown| shown.degrees)) />
+            <div class="figures">
+                <h2>{heading}</h2>
+                <AngleDigits shown=shown />
+                <p class="of">{move || counts().unwrap_or_else(|| "no reading yet".into())}</p>
+                <dl>
+                    {row("turns", "turns", |shown| shown.turns, |turns| grouped_signed(turns as i64))}
+                    {row(
+                        "unwrapped",
+                        "unwrapped",
+                        |shown| shown.turns.map(|turns| turns.mul_add(360.0, shown.degrees)),
+                        |degrees| format!("{degrees:.3}°"),
+                    )}
+                    {row("speed", "speed", |shown| shown.speed, |speed| format!("{speed:.1} rev/s"))}
+                    {row("temperature", "temperature", |shown| shown.temperature, |temperature| format!("{temperature:.1} °C"))}
+                </dl>
+                {move || stale().then(|| view! { <p class="hint">"last reading before the link stopped"</p> })}
+            </div>
+        </section>
+    }
+}
+
+/// Colour of the encoder's own LED (MPP and PT, "LED").
+fn led(shown: &Shown) -> (&'static str, &'static str) {
+    match (shown.error, shown.warning) {
+        (true, _) => ("bad", "red: the position is not valid"),
+        (false, true) => (
+            "warn",
+            "yellow: the position is valid, something is near its limit",
+        ),
+        (false, false) => ("good", "green"),
+    }
+}
+
+#[component]
+pub(crate) fn Status() -> impl IntoView {
+    let app = expect_context::<App>();
+    let shown = Memo::new(move |_| app.snapshot.get().reading);
+    let lamps = Memo::new(move |_| app.snapshot.get().lamps);
+    let value = move || shown.get().and_then(|shown| shown.status);
+    view! {
+        <section class="panel status" data-testid="status" data-value=move || value().map(|status| status.to_string())>
+            <h2>"Status"</h2>
+            <ul>
+                {move || shown.get().map(|shown| {
+                    let (tone, text) = led(&shown);
+                    view! {
+                        <li class=format!("lamp {tone}")>
+                            <span>"Encoder LED"</span>
+                            <span class="when">{text}</span>
+                        </li>
+                    }
+                })}
+                {move || lamps.get().into_iter().map(|lamp| view! { <LampRow lamp=lamp /> }).collect_view()}
+            </ul>
+            {move || (shown.get().is_some() && lamps.get().is_empty()).then(|| view! {
+                <p class="hint">"These frames carry no status bits."</p>
+            })}
+            {move || shown.get().is_none().then(|| view! { <p class="hint">"Shown with the first good frame."</p> })}
+        </section>
+    }
+}
+
+#[component]
+fn LampRow(lamp: Lamp) -> impl IntoView {
+    let when = match (lamp.now, lamp.seen > 0.0) {
+        (true, _) => "now".into(),
+        (false, true) => format!("in {} frames", grouped(lamp.seen as u64)),
+        (false, false) => "never".into(),
+    };
+    view! {
+        <li class=if lamp.now { "lamp warn" } else { "lamp off" } data-now=lamp.now.to_string()>
+            <span>
+                {lamp.name}
+                {lamp.now.then(|| view! { <small>{lamp.doc}</small> })}
+            </span>
+            <span class="when">{when}</span>
+        </li>
+    }
+}
