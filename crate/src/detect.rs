@@ -53,6 +53,15 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// The verdict on so many bits of evidence from so many distinct frames.
+    pub(crate) const fn of(score: i32, distinct: i32) -> Self {
+        match score {
+            _ if distinct > 1 && score >= CERTAIN => Self::Certain,
+            LIKELY.. => Self::Likely,
+            _ => Self::Unlikely,
+        }
+    }
+
     /// The word for it.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -74,7 +83,7 @@ pub struct Candidate {
     pub verdict: Verdict,
     /// Why, in sentences.
     pub evidence: Vec<String>,
-    score: i32,
+    pub(crate) score: i32,
 }
 
 impl Candidate {
@@ -206,7 +215,7 @@ fn hypotheses() -> impl Iterator<Item = Profile> {
 }
 
 /// Tries one profile; `None` where no frame passes.
-fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
+pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     let decoder = Decoder::new(profile).ok()?;
     let mut distinct = BTreeSet::new();
     let mut top_bit = false;
@@ -304,21 +313,16 @@ fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         score += OWN_WIDTH;
         evidence.push("the width of the IP-75".to_string());
     }
-    let verdict = match score {
-        _ if count > 1 && score >= CERTAIN => Verdict::Certain,
-        LIKELY.. => Verdict::Likely,
-        _ => Verdict::Unlikely,
-    };
     Some(Candidate {
         profile,
-        verdict,
+        verdict: Verdict::of(score, count),
         evidence,
         score,
     })
 }
 
 /// Bits of a frame that are right by chance rarely: its checks, and a control field's pattern.
-fn check_width(frame: &Frame<'_>) -> i32 {
+pub(crate) fn check_width(frame: &Frame<'_>) -> i32 {
     let fields = frame.layout.fields().filter(|field| match field.row.role {
         Role::Crc => true,
         Role::Parity => field.is_binding(),

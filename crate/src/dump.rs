@@ -35,6 +35,17 @@ impl Dump {
         !self.lines.is_empty() && self.lines.iter().all(|line| line.binary)
     }
 
+    /// A dump of bytes that nobody has written down.
+    #[must_use]
+    pub fn of_bytes(bytes: &[u8]) -> Self {
+        let bits = BitString::of_bytes(bytes.into());
+        let binary = false;
+        Self {
+            lines: Vec::from([Line { bits, binary }]),
+            unread: Vec::new(),
+        }
+    }
+
     /// All bytes as one stream.
     #[must_use]
     pub fn bytes(&self) -> Vec<u8> {

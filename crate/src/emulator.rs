@@ -8,17 +8,19 @@ mod answers;
 mod bus;
 mod counter;
 mod shaft;
+mod uart;
 mod wire;
 
 pub use bus::Bus;
 pub use counter::{Battery, Counter, Direction, ZeroInput};
 pub use shaft::Shaft;
+pub use uart::heard;
 pub use wire::Faults;
 
 use crate::{
     bits::{self, BitString},
     decode::Decoder,
-    format::{Format, Link, STATUS, asi4, period, t485},
+    format::{Format, Link, STATUS, t485},
     layout::StatusBit,
     profile::{Dialect, Profile, ProfileError},
     reading::Values,
@@ -34,8 +36,6 @@ use wire::Wire;
 const START_UP: Micros = 15_000;
 /// The zero inputs of the IP-75 act this long after power-on (IP-75, 5.1.1).
 const ZERO_INPUT: Micros = 3_000_000;
-/// ASI1 sends 3.33 thousand packets a second (IP-75, 5.3.1).
-const ASI1_INTERVAL: Micros = 300;
 /// Frames of a stream are kept this long for a reader that is slow.
 const CATCH_UP: Micros = 1_000_000;
 /// A clocked word stays latched this long after its last bit (P+F article, t_m; IP-75, T_mu).
@@ -155,20 +155,31 @@ impl Emulator {
         (!self.faults.unplugged).then_some(bytes)
     }
 
+    /// What was sent by `now` gets lost: nobody had the port open.
+    pub fn drop_unread(&mut self, now: Micros) {
+        self.stream(now);
+        self.wire.drop_all();
+    }
+
     /// The host has sent `bytes`.
     pub fn handle_input(&mut self, now: Micros, bytes: &[u8]) {
         if self.faults.unplugged {
             return;
         }
         let polled = self.profile().format.spec().link == Link::Polled;
-        for byte in bytes {
-            let echo: &[u8] = if self.faults.echo { &[*byte] } else { &[] };
+        let baud = self.profile().baud;
+        let rate = self.faults.rate.unwrap_or(baud);
+        if self.faults.echo && rate != baud {
+            self.wire.send(&self.faults, now, rate, bytes, &[]);
+        }
+        for byte in &heard(bytes, rate, baud) {
+            let echoes = self.faults.echo && rate == baud;
+            let echo: &[u8] = if echoes { &[*byte] } else { &[] };
             let hears = polled && self.is_on(now) && !self.faults.silent;
             let reply = match hears {
                 true => self.answer(now, *byte),
                 false => Vec::new(),
             };
-            let baud = self.profile().baud;
             let start = now + answers::TURNAROUND;
             self.wire.send(&self.faults, start, baud, echo, &reply);
         }
@@ -311,10 +322,8 @@ impl Emulator {
     /// Sends the frames of a stream that begin by `now`.
     fn stream(&mut self, now: Micros) {
         self.settle(now);
-        let interval = match self.profile().format {
-            Format::Period => period::INTERVAL,
-            Format::Asi4 => asi4::INTERVAL,
-            _ => ASI1_INTERVAL,
+        let Some(interval) = self.profile().format.interval() else {
+            return;
         };
         // A stream that was held up does not catch up for longer than this.
         let oldest = now.saturating_sub(CATCH_UP);

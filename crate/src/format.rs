@@ -178,6 +178,17 @@ impl Format {
         !matches!(self.spec().link, Link::Clocked)
     }
 
+    /// Microseconds from one frame of a stream to the next.
+    #[must_use]
+    pub const fn interval(self) -> Option<u64> {
+        match self {
+            Self::Period => Some(period::INTERVAL),
+            Self::Asi1 => Some(asi1::INTERVAL),
+            Self::Asi4 => Some(asi4::INTERVAL),
+            _ => None,
+        }
+    }
+
     /// The names of the parameters that matter to this format.
     #[must_use]
     pub const fn parameters(self) -> &'static [&'static str] {

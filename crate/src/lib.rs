@@ -9,7 +9,8 @@
 //! - [`explain`]: what the bits say, from any frame;
 //! - [`detect`]: what a dump may be, ranked by evidence;
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
-//!   [`emulator`]: the encoder's side of it all.
+//!   [`finder`]: which encoder is on the line; [`emulator`]: the encoder's side of it all;
+//! - [`adapter`]: what USB adapters can do.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
 //! that was chosen.
@@ -21,6 +22,7 @@
 
 extern crate alloc;
 
+pub mod adapter;
 pub mod bits;
 pub mod check;
 pub mod decode;
@@ -29,6 +31,7 @@ pub mod dump;
 pub mod emulator;
 pub mod errata;
 pub mod explain;
+pub mod finder;
 pub mod format;
 pub mod framing;
 pub mod layout;

@@ -1,5 +1,6 @@
 //! The way from the encoder to the host, and what goes wrong on it.
 
+use super::uart;
 use crate::{bits, session::Micros};
 use alloc::{collections::VecDeque, vec::Vec};
 
@@ -15,6 +16,8 @@ pub struct Faults {
     pub silent: bool,
     /// The plug is out: nothing arrives on either side.
     pub unplugged: bool,
+    /// The adapter runs at this baud rate instead of the encoder's.
+    pub rate: Option<u32>,
     /// Of 1000 reply bytes, how many have a bit turned over.
     pub flip: u32,
     /// Of 1000 reply bytes, how many get lost.
@@ -80,6 +83,9 @@ impl Wire {
             if self.chance(faults.twice) {
                 bytes.extend_from_within(..);
             }
+            if let Some(rate) = faults.rate {
+                bytes = uart::heard(&bytes, baud, rate);
+            }
             if self.chance(faults.late) {
                 late = Some(bytes);
             } else {
@@ -89,7 +95,7 @@ impl Wire {
         if !line.is_empty() {
             self.arrive(start + on_wire(line.len()), line);
         }
-        if let Some(bytes) = late {
+        if let Some(bytes) = late.filter(|bytes| !bytes.is_empty()) {
             self.arrive(start + LATE_BY + on_wire(bytes.len()), bytes);
         }
     }

@@ -50,6 +50,9 @@ pub const SPEC: Spec = Spec {
     },
 };
 
+/// Microseconds from one packet to the next: 3.33 thousand a second (IP-75, 5.3.1).
+pub const INTERVAL: u64 = 300;
+
 /// Width of the position field, PD.
 const POSITION: u32 = 22;
 

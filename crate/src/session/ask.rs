@@ -128,6 +128,12 @@ impl Ask {
         }
     }
 
+    /// The bytes of the request.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     fn byte(decoder: &Decoder, byte: u8) -> Result<Self, Refusal> {
         Self::with(decoder, [byte].into())
     }

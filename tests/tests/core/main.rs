@@ -7,6 +7,7 @@ wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 mod detection;
 mod dumps;
 mod encoders;
+mod finder;
 mod framing;
 mod fuzz;
 mod laws;

@@ -1,0 +1,432 @@
+//! Which encoder is on the line: listens and asks at the baud rates of the manuals, and ranks what
+//! fits by evidence. Like [`crate::session::Session`] it does no I/O.
+//!
+//! At each rate it listens first, since free-running encoders tell by themselves; where the line
+//! is quiet it asks what only reads ([`Ask`]), one request at a time, and waits until the line is
+//! quiet again. Requests go out only at rates so far apart that a device at another one hears
+//! zeros at most, and of RS485 only `d`, `s` and `t`: the byte of `1` is *set zero* to a
+//! device of a BUS.
+//!
+//! | baud | listens | asks |
+//! |---|---|---|
+//! | 2 500 000 | PERIOD | T485 *all*; RS485 `d`, `s`, `t`; BUS *get* to all 32 addresses |
+//! | 115 200 | PERIOD | RS485 `d`, `s`, `t` |
+//! | 230 400 | ASI1, ASI4 | nothing |
+//!
+//! The format and the widths in bytes follow from length and checks. Bits per turn do not
+//! while the shaft stands still, unless the encoder names them: what is left open is said.
+
+mod weigh;
+
+use crate::{
+    decode::Decoder,
+    detect::Verdict,
+    format::{Format, rs485::Command, t485::Request},
+    profile::Profile,
+    session::{Ask, Micros, QUIET, TIMEOUT},
+};
+use alloc::{collections::VecDeque, string::String, vec::Vec};
+use weigh::{Asked, Weighed};
+
+/// How long a line is listened to before anything is asked, in microseconds.
+const LISTEN: Micros = 300_000;
+/// Fewer bytes than these while nothing was asked are no stream.
+const STREAM: usize = 24;
+/// More than these are not looked at.
+const ENOUGH: usize = 4_096;
+/// How long a device of a BUS may take when all addresses are asked in turn.
+const SCAN_TIMEOUT: Micros = 50_000;
+/// How often what has been answered is asked again.
+const ROUNDS: usize = 6;
+/// Addresses on a BUS.
+const ADDRESSES: u8 = 32;
+
+/// What is tried at a baud rate.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    baud: u32,
+    asks: &'static [Format],
+}
+
+static PLANS: &[Plan] = &[
+    Plan {
+        baud: 2_500_000,
+        asks: &[Format::T485, Format::Rs485, Format::Bus],
+    },
+    Plan {
+        baud: 115_200,
+        asks: &[Format::Rs485],
+    },
+    Plan {
+        baud: 230_400,
+        asks: &[],
+    },
+];
+
+/// What a finder has to say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// Open the port at this baud rate, then call [`Finder::handle_opened`].
+    Open(u32),
+    /// Bytes to send.
+    Transmit(Vec<u8>),
+    /// The search is over.
+    Ended,
+}
+
+/// An encoder that may be on the line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// How to read it; its angle is as wide as it can be.
+    pub profile: Profile,
+    /// How sure the format is.
+    pub verdict: Verdict,
+    /// Why, in sentences.
+    pub evidence: Vec<String>,
+    /// The fewest bits per turn that the angles fit in; equal to those of the profile where the
+    /// width is known.
+    pub narrowest: u32,
+    /// The addresses that answered, of a BUS.
+    pub addresses: Vec<u8>,
+    pub(crate) score: i32,
+}
+
+/// What was tried, and what came of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trial {
+    /// At which baud rate.
+    pub baud: u32,
+    /// What was asked; nothing while it only listened.
+    pub format: Option<Format>,
+    /// Requests sent.
+    pub requests: u32,
+    /// Bytes that came.
+    pub bytes: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// The port is being opened.
+    Opening,
+    /// Nothing is asked until then.
+    Listening {
+        since: Micros,
+        until: Micros,
+    },
+    /// The next request goes out at this time, when the line has been quiet.
+    Ready(Micros),
+    /// A request is out; what has come is judged at this time.
+    Waiting(Micros),
+    Ended,
+}
+
+/// A search for the encoder on a line.
+///
+/// ```
+/// use encoderscope::finder::{Finder, Output};
+/// let mut finder = Finder::new();
+/// assert_eq!(finder.poll_output(), Some(Output::Open(2_500_000)));
+/// finder.handle_opened(0);
+/// assert!(finder.deadline() > 0 && finder.found().is_empty());
+/// ```
+#[derive(Debug)]
+pub struct Finder {
+    /// What is still to be tried, the present plan first.
+    plans: VecDeque<Plan>,
+    /// The formats still to be asked at this baud rate, the present one first.
+    formats: VecDeque<Format>,
+    /// What is asked of a BUS that is known.
+    known: Option<Profile>,
+    /// Requests still to be sent, by their place in the list of the format.
+    queue: VecDeque<usize>,
+    round: usize,
+    asked: Asked,
+    state: State,
+    received: Vec<u8>,
+    trials: Vec<Trial>,
+    found: Vec<Found>,
+    /// Addresses of a BUS at which something came that no check holds for.
+    disturbed: Vec<u8>,
+    output: VecDeque<Output>,
+}
+
+impl Default for Finder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Finder {
+    /// A search over all formats that come over a serial line.
+    #[must_use]
+    pub fn new() -> Self {
+        let mut finder = Self {
+            plans: PLANS.iter().copied().collect(),
+            formats: VecDeque::new(),
+            known: None,
+            queue: VecDeque::new(),
+            round: 0,
+            asked: Asked::default(),
+            state: State::Opening,
+            received: Vec::new(),
+            trials: Vec::new(),
+            found: Vec::new(),
+            disturbed: Vec::new(),
+            output: VecDeque::new(),
+        };
+        finder.open();
+        finder
+    }
+
+    /// A search for the devices of a BUS on a line that is open; `None` where the profile is
+    /// not one of a BUS.
+    #[must_use]
+    pub fn scan(profile: &Profile, now: Micros) -> Option<Self> {
+        if profile.format != Format::Bus {
+            return None;
+        }
+        let mut finder = Self::new();
+        finder.output.clear();
+        finder.plans = VecDeque::from([Plan {
+            baud: profile.baud,
+            asks: &[Format::Bus],
+        }]);
+        finder.known = Some(*profile);
+        finder.formats = VecDeque::from([Format::Bus]);
+        finder.begin(now + QUIET);
+        Some(finder)
+    }
+
+    /// What was found so far, best first.
+    #[must_use]
+    pub fn found(&self) -> &[Found] {
+        &self.found
+    }
+
+    /// What was tried so far.
+    #[must_use]
+    pub fn trials(&self) -> &[Trial] {
+        &self.trials
+    }
+
+    /// The addresses of a BUS at which something came that no check holds for: a device that is
+    /// disturbed, or two with one address.
+    #[must_use]
+    pub fn disturbed(&self) -> &[u8] {
+        &self.disturbed
+    }
+
+    /// When [`Self::handle_timeout`] must be called next; never while the port is being opened
+    /// and when the search is over.
+    #[must_use]
+    pub const fn deadline(&self) -> Micros {
+        match self.state {
+            State::Opening | State::Ended => Micros::MAX,
+            State::Listening { until, .. } | State::Ready(until) | State::Waiting(until) => until,
+        }
+    }
+
+    /// The next thing the search has to say.
+    pub fn poll_output(&mut self) -> Option<Output> {
+        self.output.pop_front()
+    }
+
+    /// The port is open at the baud rate that was asked for.
+    pub fn handle_opened(&mut self, now: Micros) {
+        if self.state == State::Opening {
+            self.received.clear();
+            self.try_next(None);
+            self.state = State::Listening {
+                since: now,
+                until: now + LISTEN,
+            };
+        }
+    }
+
+    /// Bytes have come.
+    pub fn handle_input(&mut self, now: Micros, bytes: &[u8]) {
+        if let Some(trial) = self.trials.last_mut() {
+            trial.bytes += bytes.len();
+        }
+        if self.received.len() < ENOUGH {
+            self.received.extend_from_slice(bytes);
+        }
+        match self.state {
+            State::Ready(at) => self.state = State::Ready(at.max(now + QUIET)),
+            State::Waiting(until) => self.state = State::Waiting(until.min(now + QUIET)),
+            State::Opening | State::Listening { .. } | State::Ended => {}
+        }
+    }
+
+    /// The time of [`Self::deadline`] has come; earlier calls do nothing.
+    pub fn handle_timeout(&mut self, now: Micros) {
+        if now < self.deadline() {
+            return;
+        }
+        match self.state {
+            State::Opening | State::Ended => {}
+            State::Listening { since, .. } => self.judge_stream(now, now - since),
+            State::Ready(_) => self.ask(now),
+            State::Waiting(_) => {
+                if let Some(index) = self.queue.pop_front() {
+                    let reply = core::mem::take(&mut self.received);
+                    self.asked.answered(index, reply);
+                }
+                self.state = State::Ready(now);
+            }
+        }
+    }
+
+    fn plan(&self) -> Option<Plan> {
+        self.plans.front().copied()
+    }
+
+    /// Asks for the port at the baud rate of the present plan.
+    fn open(&mut self) {
+        match self.plan() {
+            Some(plan) => {
+                self.formats = plan.asks.iter().copied().collect();
+                self.state = State::Opening;
+                self.output.push_back(Output::Open(plan.baud));
+            }
+            None => self.end(),
+        }
+    }
+
+    fn next_plan(&mut self) {
+        self.plans.pop_front();
+        self.open();
+    }
+
+    fn end(&mut self) {
+        self.state = State::Ended;
+        self.output.push_back(Output::Ended);
+    }
+
+    fn try_next(&mut self, format: Option<Format>) {
+        let baud = self.plan().map_or(0, |plan| plan.baud);
+        self.trials.push(Trial {
+            baud,
+            format,
+            requests: 0,
+            bytes: 0,
+        });
+    }
+
+    /// What came while nothing was asked is a stream, or noise, or nothing.
+    fn judge_stream(&mut self, now: Micros, took: Micros) {
+        let bytes = core::mem::take(&mut self.received);
+        let baud = self.plan().map_or(0, |plan| plan.baud);
+        let total = self.trials.last().map_or(0, |trial| trial.bytes);
+        if self.keep(weigh::streams(baud, &bytes, total, took)) {
+            self.end();
+        } else if bytes.len() >= STREAM {
+            // Something talks at another rate: it would talk into every reply.
+            self.next_plan();
+        } else {
+            self.begin(now);
+        }
+    }
+
+    /// Begins to ask the next format, or goes on with the next plan.
+    fn begin(&mut self, now: Micros) {
+        let Some(format) = self.formats.front().copied() else {
+            return self.next_plan();
+        };
+        let baud = self.plan().map_or(0, |plan| plan.baud);
+        self.asked = Asked::new(format, baud, self.known);
+        self.try_next(Some(format));
+        self.round = 0;
+        self.queue = (0..self.asked.len()).collect();
+        self.received.clear();
+        self.state = State::Ready(now);
+    }
+
+    /// Sends the next request of the round, or judges what has come.
+    fn ask(&mut self, now: Micros) {
+        self.received.clear();
+        if let Some(index) = self.queue.front() {
+            let scans = self.asked.format() == Some(Format::Bus) && *index > 0;
+            let timeout = if scans { SCAN_TIMEOUT } else { TIMEOUT };
+            if let Some(trial) = self.trials.last_mut() {
+                trial.requests += 1;
+            }
+            self.output
+                .push_back(Output::Transmit(self.asked.request(*index).into()));
+            self.state = State::Waiting(now + timeout);
+            return;
+        }
+        self.round += 1;
+        if self.round < ROUNDS {
+            self.queue = self.asked.worth_asking(self.round);
+        }
+        if !self.queue.is_empty() {
+            return;
+        }
+        self.formats.pop_front();
+        let Weighed { found, disturbed } = self.asked.weigh();
+        self.disturbed.extend(disturbed);
+        if self.keep(found) {
+            self.end();
+        } else {
+            self.begin(now);
+        }
+    }
+
+    /// Keeps what was found; returns whether nothing else can be on the line.
+    fn keep(&mut self, mut found: Vec<Found>) -> bool {
+        self.found.append(&mut found);
+        self.found.sort_by_key(|found| -found.score);
+        let sure = |found: &Found| matches!(found.verdict, Verdict::Certain | Verdict::Likely);
+        self.found.iter().any(sure)
+    }
+}
+
+/// The requests that a search sends for the format of a profile: none of them changes an encoder.
+///
+/// ```
+/// use encoderscope::{finder::requests, format::Format};
+/// assert_eq!(requests(&Format::Rs485.default_profile()).len(), 3);
+/// assert_eq!(requests(&Format::Bus.default_profile()).len(), 32);
+/// ```
+#[must_use]
+pub fn requests(profile: &Profile) -> Vec<Ask> {
+    asks(&decoders(*profile))
+}
+
+/// A decoder for each kind of reply.
+fn decoders(profile: Profile) -> Vec<Decoder> {
+    let of = |command| {
+        let profile = Profile { command, ..profile };
+        Decoder::new(profile).ok()
+    };
+    match profile.format {
+        Format::Rs485 => [Command::Status, Command::Speed, Command::Temperature]
+            .into_iter()
+            .filter_map(of)
+            .collect(),
+        _ => of(profile.command).into_iter().collect(),
+    }
+}
+
+fn asks(decoders: &[Decoder]) -> Vec<Ask> {
+    let Some(first) = decoders.first() else {
+        return Vec::new();
+    };
+    match first.profile().format {
+        Format::T485 => Ask::t485(first, Request::All, 0).into_iter().collect(),
+        Format::Bus => addresses()
+            .filter_map(|address| Ask::device(first, address).ok())
+            .collect(),
+        _ => decoders
+            .iter()
+            .filter_map(|decoder| Ask::position(decoder).ok())
+            .collect(),
+    }
+}
+
+/// The addresses of a BUS, that of the factory first.
+fn addresses() -> impl Iterator<Item = u8> {
+    let factory = ADDRESSES - 1;
+    core::iter::once(factory).chain(0..factory)
+}
