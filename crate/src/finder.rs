@@ -27,6 +27,7 @@ use crate::{
 };
 use alloc::{collections::VecDeque, string::String, vec::Vec};
 use weigh::{Asked, Weighed};
+pub(crate) use weigh::{explain_replies, streams};
 
 /// How long a line is listened to before anything is asked, in microseconds.
 const LISTEN: Micros = 300_000;
@@ -318,7 +319,7 @@ impl Finder {
         let bytes = core::mem::take(&mut self.received);
         let baud = self.plan().map_or(0, |plan| plan.baud);
         let total = self.trials.last().map_or(0, |trial| trial.bytes);
-        if self.keep(weigh::streams(baud, &bytes, total, took)) {
+        if self.keep(streams(baud, &bytes, total, took)) {
             self.end();
         } else if bytes.len() >= STREAM {
             // Something talks at another rate: it would talk into every reply.

@@ -9,7 +9,8 @@
 //! - [`explain`]: what the bits say, from any frame;
 //! - [`detect`]: what a dump may be, ranked by evidence;
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
-//!   [`finder`]: which encoder is on the line; [`emulator`]: the encoder's side of it all;
+//!   [`finder`]: which encoder is on the line; [`doctor`]: how the link is; [`emulator`]: the
+//!   encoder's side of it all;
 //! - [`adapter`]: what USB adapters can do.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
@@ -27,6 +28,7 @@ pub mod bits;
 pub mod check;
 pub mod decode;
 pub mod detect;
+pub mod doctor;
 pub mod dump;
 pub mod emulator;
 pub mod errata;

@@ -16,8 +16,10 @@
 //! | BUS zero | ten pairs *get*, *set zero*; C counts 1…10 | the tenth *set zero*, then ≤ 50 ms | MPP "BUS", set zero |
 //! | BUS address | X 2 4 6 8 10 12 14 16 Y; three silent, then C = 4…10 | the tenth, then ≤ 50 ms | MPP "BUS", set address |
 
+mod danger;
 mod runner;
 
+pub use danger::{Danger, danger};
 pub use runner::{Event, Runner};
 
 use crate::{

@@ -18,8 +18,10 @@
 //! a little longer before it asks, so that a reply too many is found out.
 
 mod ask;
+mod hand;
 
 pub use ask::{Ask, Refusal};
+pub use hand::Hand;
 
 use crate::{
     decode::Decoder,
@@ -207,6 +209,11 @@ impl Session {
             self.state = State::Idle(0);
         }
         Ok(())
+    }
+
+    /// Asks every `interval` microseconds from now on.
+    pub const fn set_interval(&mut self, interval: Micros) {
+        self.interval = interval;
     }
 
     /// Lets the line rest: what has come of a reply is reported as skipped, and the next request

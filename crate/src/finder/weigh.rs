@@ -31,6 +31,8 @@ const TEXT: i32 = 6;
 const PACED: i32 = 6;
 /// Against: a reply whose check fails.
 const FAILS: i32 = 6;
+/// So many replies must agree on another profile.
+const PROVING: usize = 4;
 /// Less than this is chance.
 const CHANCE: i32 = 6;
 /// The fewest and the most bits per turn in two and in three bytes (MPP and PT, order code).
@@ -103,12 +105,7 @@ impl Asked {
     pub(super) fn new(format: Format, baud: u32, known: Option<Profile>) -> Self {
         let profiles = match (known, format) {
             (Some(profile), _) => Vec::from([profile]),
-            (None, Format::T485) => [23, 17]
-                .map(|angle_bits| Profile {
-                    angle_bits,
-                    ..format.default_profile()
-                })
-                .into(),
+            (None, Format::T485) => t485(),
             (None, _) => native(format),
         };
         Self {
@@ -239,6 +236,49 @@ impl Asked {
     }
 }
 
+/// The profile with which most replies to the requests of `profile` are good, where it is another
+/// one: of the same format, and with the same command.
+pub(crate) fn explain_replies(profile: &Profile, replies: &[(&[u8], &[u8])]) -> Option<Profile> {
+    let profiles = match profile.format {
+        Format::T485 => t485(),
+        _ => native(profile.format),
+    };
+    profiles
+        .into_iter()
+        .map(|other| Profile {
+            angle_bits: other.angle_bits,
+            turns_bits: other.turns_bits,
+            ..*profile
+        })
+        .filter(|other| other != profile)
+        .find(|other| {
+            let good = |decoder: &Decoder, ask: &Ask| {
+                let holds = |reply: &[u8]| ask.is_answered_by(decoder, reply);
+                let good = replies.iter().filter(|(request, reply)| {
+                    holds(reply) || reply.strip_prefix(*request).is_some_and(holds)
+                });
+                good.count()
+            };
+            let decoder = Decoder::new(*other).ok();
+            let ask = decoder
+                .as_ref()
+                .and_then(|decoder| Ask::position(decoder).ok());
+            let good = decoder
+                .zip(ask)
+                .map_or(0, |(decoder, ask)| good(&decoder, &ask));
+            good >= PROVING && good * 2 > replies.len()
+        })
+}
+
+/// The widths that T485 comes in.
+fn t485() -> Vec<Profile> {
+    let widths = [23, 17].map(|angle_bits| Profile {
+        angle_bits,
+        ..Format::T485.default_profile()
+    });
+    widths.into()
+}
+
 /// Two and three bytes of angle, with turns and without.
 fn native(format: Format) -> Vec<Profile> {
     let widths = [THREE_BYTES.1, TWO_BYTES].into_iter();
@@ -254,7 +294,7 @@ fn native(format: Format) -> Vec<Profile> {
 }
 
 /// The streams that bytes which came unasked may be: `total` of them within `took` microseconds.
-pub(super) fn streams(baud: u32, bytes: &[u8], total: usize, took: Micros) -> Vec<Found> {
+pub(crate) fn streams(baud: u32, bytes: &[u8], total: usize, took: Micros) -> Vec<Found> {
     let dump = Dump::of_bytes(bytes);
     let ip75 = [(Format::Asi1, 14), (Format::Asi1, 22), (Format::Asi4, 14)];
     let ip75 = ip75.map(|(format, angle_bits)| Profile {

@@ -134,6 +134,12 @@ impl Ask {
         &self.bytes
     }
 
+    /// How many bytes the reply has.
+    #[must_use]
+    pub const fn reply_len(&self) -> usize {
+        self.reply
+    }
+
     fn byte(decoder: &Decoder, byte: u8) -> Result<Self, Refusal> {
         Self::with(decoder, [byte].into())
     }

@@ -268,7 +268,9 @@ fn is_dangerous(byte: u8) -> bool {
     let head = Resolved::new(&bus::HEAD, Shape::of(Format::Bus.default_profile()));
     let values = head.values(bits::Bits::of_bytes(&[byte]));
     let bus = values.operation.and_then(bus::Operation::of_code);
-    let parity = values.parity.is_some_and(|parity| parity.ok());
+    let parity = values
+        .parity
+        .is_some_and(encoderscope::reading::Checked::ok);
     rs485 || t485 || parity && bus.is_some_and(bus::Operation::changes_encoder)
 }
 

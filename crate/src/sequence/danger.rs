@@ -1,0 +1,77 @@
+//! Which bytes may change an encoder.
+
+use crate::{
+    bits::Bits,
+    format::{
+        Format,
+        bus::{self, Operation},
+        rs485::Command,
+        t485::Request,
+    },
+    layout::{Resolved, Shape},
+    profile::Profile,
+};
+use core::fmt;
+
+/// A byte that belongs to a command that changes an encoder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Danger {
+    /// The byte.
+    pub byte: u8,
+    /// What it is part of.
+    pub what: &'static str,
+    /// The format whose encoders understand it so.
+    pub format: Format,
+}
+
+impl fmt::Display for Danger {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "0x{:02X} is part of {} on {} encoders",
+            self.byte,
+            self.what,
+            self.format.title()
+        )
+    }
+}
+
+/// The first of some bytes that is part of a command that changes an encoder: of RS485 and T485
+/// whatever the profile says, since it may be wrong; of BUS, whose operations many bytes look
+/// like, where the profile is one of a BUS.
+///
+/// ```
+/// use encoderscope::{format::Format, sequence::danger};
+/// let t485 = Format::T485.default_profile();
+/// assert_eq!(danger(&t485, &[0x1a, 0x30]).unwrap().byte, 0x30);
+/// assert_eq!(danger(&t485, &[0x1a, 0x64, 0xbf]), None);
+/// assert!(danger(&Format::Bus.default_profile(), &[0xbf]).is_some());
+/// ```
+#[must_use]
+pub fn danger(profile: &Profile, bytes: &[u8]) -> Option<Danger> {
+    bytes.iter().find_map(|byte| of_byte(profile, *byte))
+}
+
+fn of_byte(profile: &Profile, byte: u8) -> Option<Danger> {
+    let danger = |what, format| Some(Danger { byte, what, format });
+    if Command::of_byte(byte).is_some_and(Command::changes_encoder) {
+        return danger("set zero", Format::Rs485);
+    }
+    match Request::of_byte(byte).filter(|request| request.changes_encoder()) {
+        Some(Request::MemoryWrite) => return danger("EEPROM write", Format::T485),
+        Some(Request::ResetErrors) => return danger("reset errors", Format::T485),
+        Some(Request::ResetTurns) => return danger("reset turns", Format::T485),
+        Some(_) => return danger("reset angle", Format::T485),
+        None => {}
+    }
+    if profile.format != Format::Bus {
+        return None;
+    }
+    let head = Resolved::new(&bus::HEAD, Shape::of(*profile));
+    // Whatever the parity says: what an encoder requires of it is not known.
+    let operation = head.values(Bits::of_bytes(&[byte])).operation?;
+    match Operation::of_code(operation).filter(|operation| operation.changes_encoder())? {
+        Operation::SetAddress => danger("set address", Format::Bus),
+        _ => danger("set zero", Format::Bus),
+    }
+}
