@@ -1,8 +1,9 @@
-//! Clock, timer and errors, the same in a worker and on the page.
+//! Clock, timers and errors, the same in a worker and on the page.
 
 use encoderscope::session::Micros;
-use js_sys::{Function, Reflect};
+use js_sys::{Array, Function, Promise, Reflect};
 use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
 
 #[wasm_bindgen]
 extern "C" {
@@ -61,6 +62,25 @@ impl Drop for Timer {
             clear_timeout(id);
         }
     }
+}
+
+fn pause_of(milliseconds: f64) -> Promise {
+    Promise::new(&mut |kept, _| {
+        set_timeout(&kept, milliseconds);
+    })
+}
+
+/// Lets others run for some milliseconds.
+pub async fn pause(milliseconds: f64) {
+    // A promise that a timer keeps cannot fail.
+    let _ = JsFuture::from(pause_of(milliseconds)).await;
+}
+
+/// Waits until a promise is kept or broken, but for some milliseconds at most.
+pub async fn settled(promise: &JsValue, at_most: f64) {
+    let both = Array::of2(promise, &pause_of(at_most));
+    // Whoever waits so does not care which it was.
+    let _ = JsFuture::from(Promise::race(&both)).await;
 }
 
 /// A property of an object; undefined where there is none.

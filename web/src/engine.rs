@@ -4,7 +4,7 @@
 mod run;
 
 use crate::{
-    browser::{Timer, error_text, now},
+    browser::{Timer, error_text, now, pause},
     link,
     message::{FromEngine, Link, PortId, STILL, Setting, ToEngine},
     serial::{Port, Read, Reader},
@@ -22,6 +22,8 @@ use wasm_bindgen::JsValue;
 
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
+/// The longest pause between two readers of a line that does nothing but fail, in milliseconds.
+const LONGEST_PAUSE: f64 = 128.0;
 
 /// The engine; clones share one state.
 #[derive(Clone)]
@@ -41,8 +43,8 @@ struct State {
     asked: Option<ToEngine>,
     /// What has been asked is being done.
     busy: bool,
-    /// A port is being opened.
-    opening: bool,
+    /// The port that is being opened, and with which opening.
+    opening: Option<(PortId, u32)>,
     /// Counts openings, so that what belongs to an earlier one can be told.
     generation: u32,
 }
@@ -53,7 +55,9 @@ enum Next {
     Read,
     /// With a new reader: a non-fatal error replaces the stream.
     Reader,
-    /// Not at all.
+    /// Not at all, because the port is gone.
+    Lost,
+    /// Not at all, because nobody wants it any more.
     Stop,
 }
 
@@ -76,7 +80,7 @@ impl Engine {
                 wanted: true,
                 asked: None,
                 busy: false,
-                opening: false,
+                opening: None,
                 generation: 0,
             })),
         };
@@ -128,9 +132,10 @@ impl Engine {
             let Some(message) = self.state.borrow_mut().asked.take() else {
                 break;
             };
-            self.close().await;
+            let wire = self.state.borrow_mut().let_go();
+            shut(wire).await;
             match message {
-                ToEngine::Open { .. } if self.state.borrow().opening => {
+                ToEngine::Open { port, .. } if self.is_opening(port) => {
                     // A port cannot be opened twice; when it is open or refused, this goes on.
                     self.state.borrow_mut().asked = Some(message);
                     self.set_link(Link::Opening);
@@ -151,28 +156,9 @@ impl Engine {
         state.pump();
     }
 
-    /// Closes what is open.
-    async fn close(&self) {
-        let run = {
-            let mut state = self.state.borrow_mut();
-            state.generation += 1;
-            let State { run, tally, .. } = &mut *state;
-            if let Some(run) = run {
-                run.abandon(tally);
-            }
-            run.take()
-        };
-        if let Some(Run {
-            wire: Wire::Port { port, reader },
-            ..
-        }) = run
-        {
-            if let Some(reader) = reader {
-                reader.cancel().await;
-                reader.release();
-            }
-            port.close().await;
-        }
+    fn is_opening(&self, port: PortId) -> bool {
+        let opening = self.state.borrow().opening;
+        opening.is_some_and(|(other, _)| other == port)
     }
 
     fn session(profile: &str, interval: Micros) -> Result<(Session, Decoder), String> {
@@ -212,6 +198,7 @@ impl Engine {
             interval,
             setting: None,
             lived: now(),
+            looked: now(),
             wire,
             silent: 0,
             failing: 0,
@@ -230,25 +217,30 @@ impl Engine {
         self.set_link(Link::Opening);
         let generation = {
             let mut state = self.state.borrow_mut();
-            state.opening = true;
+            state.opening = Some((port, state.generation));
             state.generation
         };
         let engine = self.clone();
         wasm_bindgen_futures::spawn_local(async move {
-            let opened = Port::open(port, decoder.profile().baud).await;
+            let watching = engine.clone();
+            let gone = move || {
+                let engine = watching.clone();
+                wasm_bindgen_futures::spawn_local(async move { engine.lose(generation).await });
+            };
+            let opened = Port::open(port, decoder.profile().baud, gone).await;
             let current = engine.state.borrow().generation == generation;
             match opened {
                 Ok(port) if current => {
-                    engine.state.borrow_mut().opening = false;
+                    engine.opened(generation);
                     engine.start(session, decoder, Wire::Port { port, reader: None }, 0);
                     engine.read(generation).await;
                 }
                 Ok(port) => {
                     port.close().await;
-                    engine.state.borrow_mut().opening = false;
+                    engine.opened(generation);
                 }
                 Err(error) => {
-                    engine.state.borrow_mut().opening = false;
+                    engine.opened(generation);
                     if current {
                         engine.set_link(refused(&error));
                     }
@@ -258,18 +250,34 @@ impl Engine {
         });
     }
 
+    /// An opening has come to its end.
+    fn opened(&self, generation: u32) {
+        let opening = &mut self.state.borrow_mut().opening;
+        opening.take_if(|(_, opening)| *opening == generation);
+    }
+
     /// Reads the port until it is closed or lost.
     async fn read(&self, generation: u32) {
+        let mut wait = 0.0;
         while let Some(reader) = self.next_reader(generation) {
-            loop {
+            let next = loop {
                 let read = reader.read().await;
+                if let Read::Bytes(_) = read {
+                    wait = 0.0;
+                }
                 match self.take(generation, read) {
                     Next::Read => {}
-                    Next::Reader => break,
-                    Next::Stop => return,
+                    next => break next,
                 }
+            };
+            match next {
+                Next::Read | Next::Reader => reader.release(),
+                Next::Lost => break,
+                Next::Stop => return,
             }
-            reader.release();
+            // The stream of a broken line may fail as soon as it is read, for ever.
+            pause(wait).await;
+            wait = (2.0 * wait).clamp(1.0, LONGEST_PAUSE);
         }
         self.lose(generation).await;
     }
@@ -303,6 +311,7 @@ impl Engine {
                 let State { run, tally, .. } = &mut *state;
                 tally.received(bytes.len());
                 if let Some(run) = run {
+                    run.wake(now);
                     run.take(now, &bytes, tally);
                 }
                 state.pump();
@@ -310,40 +319,71 @@ impl Engine {
             }
             Read::LineError => {
                 state.tally.line_error();
+                state.pump();
                 Next::Reader
             }
-            // A lost port has no further stream, so asking for a reader tells.
-            Read::Lost => Next::Reader,
-            Read::Closed => Next::Stop,
+            // Nobody here has closed it: that would be another generation.
+            Read::Lost | Read::Closed => Next::Lost,
         }
     }
 
-    /// The port went away.
+    /// The port went away, perhaps while it was being opened.
     async fn lose(&self, generation: u32) {
-        {
+        let wire = {
             let mut state = self.state.borrow_mut();
             if state.generation != generation || state.busy {
                 return;
             }
             state.busy = true;
-        }
-        self.close().await;
+            state.opening = None;
+            state.let_go()
+        };
         self.set_link(Link::Lost);
+        shut(wire).await;
         self.work().await;
     }
 }
 
 fn refused(error: &JsValue) -> Link {
     let (name, message) = error_text(error);
-    let reason = if name == "InvalidStateError" {
-        "The port is already open in another tab of this page.".into()
-    } else {
-        message
+    let reason = match name.as_str() {
+        "InvalidStateError" => {
+            "This page still holds it: pull the adapter out and plug it in again.".into()
+        }
+        "SecurityError" => {
+            "The browser blocks serial ports here: see the site's settings, or ask who manages \
+             this computer."
+                .into()
+        }
+        "NetworkError" => format!(
+            "{message} Close other tabs and other programs that use it; on Linux your user must \
+             be in the group dialout."
+        ),
+        _ => message,
     };
     Link::Refused { reason }
 }
 
+/// Closes a port that was let go.
+async fn shut(wire: Option<Wire>) {
+    if let Some(Wire::Port { port, reader }) = wire {
+        if let Some(reader) = reader {
+            reader.cancel().await;
+            reader.release();
+        }
+        port.close().await;
+    }
+}
+
 impl State {
+    /// Lets go of what is open; it is still to be closed.
+    fn let_go(&mut self) -> Option<Wire> {
+        self.generation += 1;
+        let mut run = self.run.take()?;
+        run.abandon(&mut self.tally);
+        Some(run.wire)
+    }
+
     /// Begins a sequence with the encoder that is being read.
     fn begin(&mut self, setting: Setting) {
         let Some(run) = &mut self.run else {
@@ -393,6 +433,7 @@ impl State {
         let now = now();
         let mut wake = None;
         if let Some(run) = &mut self.run {
+            run.wake(now);
             let link = run.advance(now, &mut self.tally);
             wake = Some(match &run.wire {
                 Wire::Port { .. } => run.deadline(),

@@ -149,7 +149,7 @@ pub enum Link {
     },
     /// The port could not be opened.
     Refused {
-        /// Why, in the browser's words.
+        /// Why, and what to do about it.
         reason: String,
     },
     /// The port went away.

@@ -1,10 +1,11 @@
 //! Web Serial: the only module that touches it.
 
 use crate::{
-    browser::{error_text, property},
+    browser::{error_text, property, settled},
     message::PortId,
 };
 use js_sys::{Array, Uint8Array};
+use std::{cell::RefCell, rc::Rc};
 use wasm_bindgen::{JsCast, JsValue, closure::Closure};
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{
@@ -14,6 +15,13 @@ use web_sys::{
 
 /// At 2.5 Mbaud 64 KiB last a quarter of a second.
 const BUFFER: u32 = 65_536;
+
+/// A port that has not closed after so many milliseconds is left behind.
+const CLOSING: f64 = 2_000.0;
+
+/// Writes that the port has not taken; what came behind them would be sent long after it was
+/// meant.
+const UNTAKEN: u32 = 2;
 
 /// Why serial ports cannot be reached from here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,7 +155,40 @@ const ADAPTERS: &[(u16, u16, &str)] = &[
 #[derive(Clone, Debug)]
 pub struct Port {
     port: SerialPort,
-    writer: WritableStreamDefaultWriter,
+    out: Rc<RefCell<Out>>,
+    _watch: Rc<Watch>,
+}
+
+/// The sending side.
+#[derive(Debug, Default)]
+struct Out {
+    /// Made with the first write, and anew when a write has failed.
+    writer: Option<WritableStreamDefaultWriter>,
+    untaken: u32,
+}
+
+/// Listens for the port going away until it is dropped.
+#[derive(Debug)]
+struct Watch {
+    port: SerialPort,
+    _listener: Closure<dyn Fn()>,
+}
+
+impl Watch {
+    fn new(port: &SerialPort, gone: impl Fn() + 'static) -> Self {
+        let listener = Closure::<dyn Fn()>::new(gone);
+        port.set_ondisconnect(Some(listener.as_ref().unchecked_ref()));
+        Self {
+            port: port.clone(),
+            _listener: listener,
+        }
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        self.port.set_ondisconnect(None);
+    }
 }
 
 /// What reading a port came to.
@@ -157,19 +198,20 @@ pub enum Read {
     Bytes(Vec<u8>),
     /// A break, framing, parity or overrun error; a new reader goes on.
     LineError,
-    /// The port was closed from here.
+    /// The stream has ended: the port was closed.
     Closed,
-    /// The port went away.
+    /// The port went away, or fails for good.
     Lost,
 }
 
 impl Port {
-    /// Opens a port at a baud rate, 8N1.
+    /// Opens a port at a baud rate, 8N1; `gone` is called when its device goes away, even while
+    /// it is being opened.
     ///
     /// # Errors
     ///
     /// The port is not there any more, is busy, or the browser may not open it.
-    pub async fn open(id: PortId, baud: u32) -> Result<Self, JsValue> {
+    pub async fn open(id: PortId, baud: u32, gone: impl Fn() + 'static) -> Result<Self, JsValue> {
         let ports = ports().await?;
         let listed: Vec<PortId> = identities(&ports);
         let index = find(&listed, id).ok_or_else(|| {
@@ -178,26 +220,49 @@ impl Port {
             ))
         })?;
         let port = &ports[index];
+        let watch = Watch::new(port, gone);
         let options = SerialOptions::new(baud);
         options.set_buffer_size(BUFFER);
         JsFuture::from(port.open(&options)).await?;
-        let writable: WritableStream = port.writable();
-        let writer = writable.get_writer()?;
         Ok(Self {
             port: port.clone(),
-            writer,
+            out: Rc::default(),
+            _watch: Rc::new(watch),
         })
     }
 
-    /// Sends bytes. That they were taken proves nothing; only a reply does.
+    /// Sends bytes. That they were taken proves nothing; only a reply does. A write that fails,
+    /// or is dropped because earlier ones have not been taken, shows as silence.
     pub fn write(&self, bytes: &[u8]) {
-        let sent = self
-            .writer
-            .write_with_chunk(&Uint8Array::from(bytes).into());
+        let mut out = self.out.borrow_mut();
+        if out.untaken >= UNTAKEN {
+            return;
+        }
+        if out.writer.is_none() {
+            out.writer = self.writer();
+        }
+        let Some(writer) = out.writer.clone() else {
+            return;
+        };
+        out.untaken += 1;
+        let sent = writer.write_with_chunk(&Uint8Array::from(bytes).into());
+        let out = Rc::clone(&self.out);
         wasm_bindgen_futures::spawn_local(async move {
-            // A failed write shows as silence or as a lost port on the reading side.
-            let _ = JsFuture::from(sent).await;
+            let failed = JsFuture::from(sent).await.is_err();
+            let mut out = out.borrow_mut();
+            out.untaken -= 1;
+            // An error that is not fatal replaces the stream.
+            if failed && out.writer.as_ref() == Some(&writer) {
+                out.writer = None;
+                writer.release_lock();
+            }
         });
+    }
+
+    fn writer(&self) -> Option<WritableStreamDefaultWriter> {
+        let writable = property(&self.port, "writable");
+        let stream: WritableStream = writable.dyn_into().ok()?;
+        stream.get_writer().ok()
     }
 
     /// A reader of the port; there can be one at a time.
@@ -209,12 +274,23 @@ impl Port {
         Some(Reader { reader })
     }
 
-    /// Closes the port, after its reader has been let go.
+    /// Closes the port, after its reader has been let go; one that does not close within two
+    /// seconds is left behind.
     pub async fn close(&self) {
-        self.writer.release_lock();
-        let _ = JsFuture::from(self.port.close()).await;
+        if let Some(writer) = self.out.borrow_mut().writer.take() {
+            writer.release_lock();
+        }
+        settled(&self.port.close(), CLOSING).await;
     }
 }
+
+/// Errors after which a port has a new stream (Web Serial, "readable").
+const LINE_ERRORS: [&str; 4] = [
+    "BreakError",
+    "BufferOverrunError",
+    "FramingError",
+    "ParityError",
+];
 
 /// Reads an open port.
 #[derive(Clone, Debug)]
@@ -231,14 +307,14 @@ impl Reader {
                 let bytes: Uint8Array = property(&result, "value").unchecked_into();
                 Read::Bytes(bytes.to_vec())
             }
-            Err(error) if error_text(&error).0 == "NetworkError" => Read::Lost,
-            Err(_) => Read::LineError,
+            Err(error) if LINE_ERRORS.contains(&error_text(&error).0.as_str()) => Read::LineError,
+            Err(_) => Read::Lost,
         }
     }
 
-    /// Ends a pending read.
+    /// Ends a pending read, as far as the port lets it within two seconds.
     pub async fn cancel(&self) {
-        let _ = JsFuture::from(self.reader.cancel()).await;
+        settled(&self.reader.cancel(), CLOSING).await;
     }
 
     /// Lets the stream go, so that another reader or a close can have it.

@@ -20,6 +20,8 @@ const SILENT_AFTER: u32 = 3;
 const FAILING_AFTER: u32 = 10;
 /// Bytes without a request after which the encoder is called free-running.
 const UNASKED_AFTER: usize = 100;
+/// So late a step is only made after the tab was frozen or the machine asleep.
+const ASLEEP: Micros = 1_000_000;
 
 /// An open link.
 pub(super) struct Run {
@@ -29,6 +31,8 @@ pub(super) struct Run {
     pub(super) setting: Option<(Setting, Runner)>,
     /// How far the built-in encoder has lived; its time never runs backwards.
     pub(super) lived: Micros,
+    /// When the link was last looked at.
+    pub(super) looked: Micros,
     pub(super) wire: Wire,
     pub(super) silent: u32,
     pub(super) failing: u32,
@@ -97,6 +101,19 @@ impl Run {
                 return link;
             }
         }
+    }
+
+    /// Begins anew after a sleep. What is read then came at a time that nobody knows, and what was
+    /// seen of the shaft before a sequence no longer counts.
+    pub(super) fn wake(&mut self, now: Micros) {
+        let overslept = |due: Micros| now > due.saturating_add(ASLEEP);
+        if overslept(self.deadline()) && overslept(self.looked) {
+            match &mut self.setting {
+                Some((_, runner)) => runner.stop(),
+                None => self.session.rest(),
+            }
+        }
+        self.looked = now;
     }
 
     /// When something is to be done next.

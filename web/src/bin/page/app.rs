@@ -8,6 +8,7 @@ use encoderscope_web::{
     serial,
 };
 use leptos::{ev, prelude::*};
+use std::time::Duration;
 
 /// What the dial shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +65,8 @@ pub(crate) struct App {
     pub(crate) dump: RwSignal<String>,
     /// The worker has broken down, and an engine on the page has taken over.
     broken: RwSignal<bool>,
+    /// A port was plugged in a moment ago.
+    just_plugged: RwSignal<bool>,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
@@ -84,6 +87,7 @@ impl App {
             notice: RwSignal::new(None),
             dump: RwSignal::new(String::new()),
             broken,
+            just_plugged: RwSignal::new(false),
             connection: StoredValue::new_local(connection),
         }
     }
@@ -181,6 +185,20 @@ impl App {
             self.connect();
         } else {
             leptos::task::spawn_local(self.refresh_ports());
+            self.just_plugged.set(true);
+            set_timeout(
+                move || self.just_plugged.set(false),
+                Duration::from_millis(500),
+            );
+        }
+    }
+
+    /// Reads on where the news of a plug put back has overtaken that of its being pulled out.
+    fn follow_plug(self) {
+        let lost = self.snapshot.get().link == Link::Lost;
+        if lost && self.just_plugged.get() && self.source.get_untracked() == Source::Port {
+            self.just_plugged.set(false);
+            self.connect();
         }
     }
 
@@ -269,6 +287,7 @@ pub(crate) fn app(make_worker: &js_sys::Function) -> impl IntoView + use<> {
     provide_context(app);
     app.follow_link(&location_hash());
     Effect::new(move || app.follow_profile());
+    Effect::new(move || app.follow_plug());
     Effect::new(move || {
         if app.broken.get() {
             match app.source.get_untracked() {

@@ -134,9 +134,12 @@ fn link_text(link: &Link) -> (&'static str, String) {
         Link::Unfit { reason } => ("This profile has no serial line", format!("{reason}.")),
         Link::Refused { reason } => (
             "The port could not be opened",
-            format!("{reason} Close other programs that use it; on Linux your user must be in the group dialout."),
+            reason.clone(),
         ),
-        Link::Lost => ("The port is gone", "The adapter was unplugged. Plug it in and reconnect.".into()),
+        Link::Lost => (
+            "The port is gone",
+            "The adapter was unplugged, or the permission for it withdrawn. Plug it in and reconnect.".into(),
+        ),
     }
 }
 
@@ -201,22 +204,24 @@ fn Counters() -> impl IntoView {
             <Count label="bytes in" testid="bytes-in" read=|snapshot| snapshot.counts.bytes />
             <Count label="in frames" testid="bytes-framed" read=|snapshot| snapshot.counts.framed />
             <Count label="skipped" testid="bytes-skipped" read=|snapshot| snapshot.counts.skipped />
-            <Counted label="in sequences" read=|counts| counts.set />
-            <Counted label="line errors" read=|counts| counts.line />
+            <Counted label="in sequences" testid="bytes-set" read=|counts| counts.set />
+            <Counted label="line errors" testid="line-errors" read=|counts| counts.line />
         </dl>
     }
 }
 
 /// A number that is only shown when there is something to count.
 #[component]
-fn Counted(label: &'static str, read: fn(&Counts) -> f64) -> impl IntoView {
+fn Counted(label: &'static str, testid: &'static str, read: fn(&Counts) -> f64) -> impl IntoView {
     let app = expect_context::<App>();
     let value = Memo::new(move |_| read(&app.snapshot.get().counts));
     move || {
         (value.get() > 0.0).then(|| {
             view! {
                 <dt>{label}</dt>
-                <dd>{move || grouped(value.get() as u64)}</dd>
+                <dd data-testid=testid data-value=move || value.get().to_string()>
+                    {move || grouped(value.get() as u64)}
+                </dd>
             }
         })
     }
