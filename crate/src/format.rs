@@ -236,6 +236,19 @@ layout! {
     }
 }
 
+/// Whether the encoder's LED blinks, once a second, while a status bit of this name is set: those
+/// of the battery (MPP and PT, "LED").
+///
+/// ```
+/// use encoderscope::format::blinks;
+/// assert!(blinks("battery low") && !blinks("overspeed"));
+/// ```
+#[must_use]
+pub fn blinks(name: &str) -> bool {
+    let battery = STATUS.iter().filter(|bit| bit.place >= 4);
+    battery.into_iter().any(|bit| bit.name == name)
+}
+
 /// The six status bits that SSI, BiSS-C, RS485, RS422, BUS and PERIOD share
 /// (MPP and PT, "Status bits").
 pub static STATUS: &[StatusBit] = &[

@@ -1,29 +1,31 @@
 //! The engine: drives a session over a port or against the built-in encoder, and keeps what
 //! the page shows. It runs in a dedicated worker, or on the page where it must.
 
+mod line;
 mod run;
+mod talk;
+mod wishes;
 
 use crate::{
-    browser::{Timer, error_text, now, pause},
+    browser::{Timer, now},
     link,
-    message::{FromEngine, Link, PortId, STILL, Setting, ToEngine},
-    serial::{Port, Read, Reader},
+    message::{FromEngine, Link, PortId, ToEngine},
     tally::Tally,
 };
 use encoderscope::{
     decode::Decoder,
     emulator::{Emulator, Shaft},
-    sequence::Runner,
+    finder::Finder,
+    profile::{Profile, ProfileError},
     session::{Micros, Session},
 };
-use run::{Run, Wire};
+use line::shut;
+use run::{Run, Todo, Wire};
 use std::{cell::RefCell, rc::Rc};
-use wasm_bindgen::JsValue;
+use talk::Talk;
 
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
-/// The longest pause between two readers of a line that does nothing but fail, in milliseconds.
-const LONGEST_PAUSE: f64 = 128.0;
 
 /// The engine; clones share one state.
 #[derive(Clone)]
@@ -35,6 +37,8 @@ struct State {
     post: Box<dyn Fn(FromEngine)>,
     timer: Option<Timer>,
     link: Link,
+    /// Requests are so far apart.
+    interval: Micros,
     run: Option<Run>,
     tally: Tally,
     /// The page has drawn and waits for a snapshot.
@@ -47,18 +51,6 @@ struct State {
     opening: Option<(PortId, u32)>,
     /// Counts openings, so that what belongs to an earlier one can be told.
     generation: u32,
-}
-
-/// How reading goes on.
-enum Next {
-    /// With the same reader.
-    Read,
-    /// With a new reader: a non-fatal error replaces the stream.
-    Reader,
-    /// Not at all, because the port is gone.
-    Lost,
-    /// Not at all, because nobody wants it any more.
-    Stop,
 }
 
 impl std::fmt::Debug for Engine {
@@ -75,6 +67,7 @@ impl Engine {
                 post: Box::new(post),
                 timer: None,
                 link: Link::Closed,
+                interval: 0,
                 run: None,
                 tally: Tally::new(now()),
                 wanted: true,
@@ -87,11 +80,10 @@ impl Engine {
         let weak = Rc::downgrade(&engine.state);
         let timer = Timer::new(move || {
             if let Some(state) = weak.upgrade() {
-                let mut state = state.borrow_mut();
-                if let Some(timer) = &mut state.timer {
+                if let Some(timer) = &mut state.borrow_mut().timer {
                     timer.fired();
                 }
-                state.pump();
+                Self { state }.pump();
             }
         });
         engine.state.borrow_mut().timer = Some(timer);
@@ -106,14 +98,37 @@ impl Engine {
             ToEngine::Set(setting) => state.begin(setting),
             ToEngine::StopSetting => state.stop(),
             ToEngine::ForgetSetting => state.tally.forget_progress(),
+            ToEngine::Scan => state.scan(),
+            ToEngine::Watch(address) => state.watch(address),
+            ToEngine::Send { bytes, confirmed } => state.send(&bytes, confirmed),
+            ToEngine::Pace(rate) => state.pace(rate),
+            ToEngine::Log(filter) => state.tally.filter(filter),
             ToEngine::Turn(speed) => state.turn(speed),
-            ToEngine::Open { .. } | ToEngine::Demo { .. } | ToEngine::Close => {
+            ToEngine::Knobs(knobs) => state.adjust(knobs),
+            ToEngine::Open { .. }
+            | ToEngine::Demo { .. }
+            | ToEngine::Find { .. }
+            | ToEngine::Close => {
                 state.asked = Some(message);
                 drop(state);
                 return self.kick();
             }
         }
-        state.pump();
+        drop(state);
+        self.pump();
+    }
+
+    /// Lets the link go on, posts a snapshot, and does what a search wants.
+    fn pump(&self) {
+        let todo = self.state.borrow_mut().pump();
+        match todo {
+            None => {}
+            Some(Todo::Reopen(baud)) => self.search_at(baud),
+            Some(Todo::Close) => {
+                self.state.borrow_mut().asked.get_or_insert(ToEngine::Close);
+                self.kick();
+            }
+        }
     }
 
     /// Starts doing what has been asked, unless that is being done; of what is asked meanwhile,
@@ -135,7 +150,10 @@ impl Engine {
             let wire = self.state.borrow_mut().let_go();
             shut(wire).await;
             match message {
-                ToEngine::Open { port, .. } if self.is_opening(port) => {
+                ToEngine::Open { port, .. }
+                | ToEngine::Find {
+                    port: Some(port), ..
+                } if self.is_opening(port) => {
                     // A port cannot be opened twice; when it is open or refused, this goes on.
                     self.state.borrow_mut().asked = Some(message);
                     self.set_link(Link::Opening);
@@ -143,6 +161,13 @@ impl Engine {
                 }
                 ToEngine::Open { port, profile } => self.begin_open(port, &profile),
                 ToEngine::Demo { profile } => self.demo(&profile),
+                ToEngine::Find {
+                    port: Some(port), ..
+                } => self.begin_search(port),
+                ToEngine::Find {
+                    port: None,
+                    profile,
+                } => self.search_demo(&profile),
                 _ => self.set_link(Link::Closed),
             }
         }
@@ -150,10 +175,12 @@ impl Engine {
     }
 
     fn set_link(&self, link: Link) {
-        let mut state = self.state.borrow_mut();
-        state.link = link;
-        state.tally.touch();
-        state.pump();
+        {
+            let mut state = self.state.borrow_mut();
+            state.link = link;
+            state.tally.touch();
+        }
+        self.pump();
     }
 
     fn is_opening(&self, port: PortId) -> bool {
@@ -161,302 +188,63 @@ impl Engine {
         opening.is_some_and(|(other, _)| other == port)
     }
 
-    fn session(profile: &str, interval: Micros) -> Result<(Session, Decoder), String> {
+    fn session(profile: &str, interval: Micros) -> Result<Session, String> {
         let profile = link::profile(profile).map_err(|error| error.to_string())?;
         let decoder = Decoder::new(profile).map_err(|error| error.to_string())?;
-        let session = Session::new(decoder.clone(), interval).map_err(|error| error.to_string())?;
-        Ok((session, decoder))
+        Session::new(decoder, interval).map_err(|error| error.to_string())
     }
 
     fn demo(&self, profile: &str) {
-        let made = Self::session(profile, DEMO_INTERVAL).and_then(|(session, decoder)| {
-            let shaft = Shaft {
-                start: 4.85,
-                speed: 0.08,
-                sway: 0.35,
-                period: 11.0,
-            };
-            let emulator =
-                Emulator::new(*decoder.profile(), shaft).map_err(|error| error.to_string())?;
-            Ok((session, decoder, emulator))
-        });
-        match made {
-            Ok((session, decoder, emulator)) => {
-                let wire = Wire::Demo(Box::new(emulator));
-                self.start(session, decoder, wire, DEMO_INTERVAL);
-            }
+        let interval = self.state.borrow().interval.max(DEMO_INTERVAL);
+        match Self::session(profile, interval) {
+            Ok(session) => match emulator(session.decoder().profile()) {
+                Ok(wire) => self.start(session, wire, interval),
+                Err(error) => self.set_link(Link::Unfit {
+                    reason: error.to_string(),
+                }),
+            },
             Err(reason) => self.set_link(Link::Unfit { reason }),
         }
     }
 
-    fn start(&self, session: Session, decoder: Decoder, wire: Wire, interval: Micros) {
-        let mut state = self.state.borrow_mut();
-        state.tally = Tally::new(now());
-        state.tally.start(decoder);
-        state.run = Some(Run {
-            session,
-            interval,
-            setting: None,
-            lived: now(),
-            looked: now(),
-            wire,
-            silent: 0,
-            failing: 0,
-            unasked: 0,
-        });
-        state.link = Link::Waiting;
-        state.pump();
-    }
-
-    /// Opening may take for ever, so nothing waits for it.
-    fn begin_open(&self, port: PortId, profile: &str) {
-        let (session, decoder) = match Self::session(profile, 0) {
-            Ok(made) => made,
-            Err(reason) => return self.set_link(Link::Unfit { reason }),
-        };
-        self.set_link(Link::Opening);
-        let generation = {
-            let mut state = self.state.borrow_mut();
-            state.opening = Some((port, state.generation));
-            state.generation
-        };
-        let engine = self.clone();
-        wasm_bindgen_futures::spawn_local(async move {
-            let watching = engine.clone();
-            let gone = move || {
-                let engine = watching.clone();
-                wasm_bindgen_futures::spawn_local(async move { engine.lose(generation).await });
-            };
-            let opened = Port::open(port, decoder.profile().baud, gone).await;
-            let current = engine.state.borrow().generation == generation;
-            match opened {
-                Ok(port) if current => {
-                    engine.opened(generation);
-                    engine.start(session, decoder, Wire::Port { port, reader: None }, 0);
-                    engine.read(generation).await;
-                }
-                Ok(port) => {
-                    port.close().await;
-                    engine.opened(generation);
-                }
-                Err(error) => {
-                    engine.opened(generation);
-                    if current {
-                        engine.set_link(refused(&error));
-                    }
-                }
+    /// Searches for the built-in encoder, as if nothing were known of it.
+    fn search_demo(&self, profile: &str) {
+        let made = link::profile(profile).and_then(|profile| emulator(&profile));
+        match made {
+            Ok(wire) => {
+                let mut state = self.state.borrow_mut();
+                state.tally = Tally::new(now());
+                let talk = Talk::Find(Finder::new(), None);
+                state.run = Some(Run::searching(wire, talk, now()));
+                drop(state);
+                self.set_link(Link::Searching);
             }
-            engine.kick();
-        });
-    }
-
-    /// An opening has come to its end.
-    fn opened(&self, generation: u32) {
-        let opening = &mut self.state.borrow_mut().opening;
-        opening.take_if(|(_, opening)| *opening == generation);
-    }
-
-    /// Reads the port until it is closed or lost.
-    async fn read(&self, generation: u32) {
-        let mut wait = 0.0;
-        while let Some(reader) = self.next_reader(generation) {
-            let next = loop {
-                let read = reader.read().await;
-                if let Read::Bytes(_) = read {
-                    wait = 0.0;
-                }
-                match self.take(generation, read) {
-                    Next::Read => {}
-                    next => break next,
-                }
-            };
-            match next {
-                Next::Read | Next::Reader => reader.release(),
-                Next::Lost => break,
-                Next::Stop => return,
-            }
-            // The stream of a broken line may fail as soon as it is read, for ever.
-            pause(wait).await;
-            wait = (2.0 * wait).clamp(1.0, LONGEST_PAUSE);
-        }
-        self.lose(generation).await;
-    }
-
-    /// A reader of the port; the one before it has been let go.
-    fn next_reader(&self, generation: u32) -> Option<Reader> {
-        let mut state = self.state.borrow_mut();
-        if state.generation != generation {
-            return None;
-        }
-        match &mut state.run {
-            Some(Run {
-                wire: Wire::Port { port, reader },
-                ..
-            }) => {
-                *reader = port.reader();
-                reader.clone()
-            }
-            _ => None,
+            Err(error) => self.set_link(Link::Unfit {
+                reason: error.to_string(),
+            }),
         }
     }
 
-    fn take(&self, generation: u32, read: Read) -> Next {
-        let mut state = self.state.borrow_mut();
-        if state.generation != generation {
-            return Next::Stop;
-        }
-        match read {
-            Read::Bytes(bytes) => {
-                let now = now();
-                let State { run, tally, .. } = &mut *state;
-                tally.received(bytes.len());
-                if let Some(run) = run {
-                    run.wake(now);
-                    run.take(now, &bytes, tally);
-                }
-                state.pump();
-                Next::Read
-            }
-            Read::LineError => {
-                state.tally.line_error();
-                state.pump();
-                Next::Reader
-            }
-            // Nobody here has closed it: that would be another generation.
-            Read::Lost | Read::Closed => Next::Lost,
-        }
-    }
-
-    /// The port went away, perhaps while it was being opened.
-    async fn lose(&self, generation: u32) {
-        let wire = {
-            let mut state = self.state.borrow_mut();
-            if state.generation != generation || state.busy {
-                return;
-            }
-            state.busy = true;
-            state.opening = None;
-            state.let_go()
-        };
-        self.set_link(Link::Lost);
-        shut(wire).await;
-        self.work().await;
-    }
-}
-
-fn refused(error: &JsValue) -> Link {
-    let (name, message) = error_text(error);
-    let reason = match name.as_str() {
-        "InvalidStateError" => {
-            "This page still holds it: pull the adapter out and plug it in again.".into()
-        }
-        "SecurityError" => {
-            "The browser blocks serial ports here: see the site's settings, or ask who manages \
-             this computer."
-                .into()
-        }
-        "NetworkError" => format!(
-            "{message} Close other tabs and other programs that use it; on Linux your user must \
-             be in the group dialout."
-        ),
-        _ => message,
-    };
-    Link::Refused { reason }
-}
-
-/// Closes a port that was let go.
-async fn shut(wire: Option<Wire>) {
-    if let Some(Wire::Port { port, reader }) = wire {
-        if let Some(reader) = reader {
-            reader.cancel().await;
-            reader.release();
-        }
-        port.close().await;
-    }
-}
-
-impl State {
-    /// Lets go of what is open; it is still to be closed.
-    fn let_go(&mut self) -> Option<Wire> {
-        self.generation += 1;
-        let mut run = self.run.take()?;
-        run.abandon(&mut self.tally);
-        Some(run.wire)
-    }
-
-    /// Begins a sequence with the encoder that is being read.
-    fn begin(&mut self, setting: Setting) {
-        let Some(run) = &mut self.run else {
-            return self.tally.refuse(setting, "Nothing is connected.");
-        };
-        if run.setting.is_some() {
-            return;
-        }
-        let still = self.tally.moved(now()).is_some_and(|moved| moved < STILL);
-        if setting.needs_rest() && !still {
-            let why = "The shaft must stand still for a second. Nothing was sent.";
-            return self.tally.refuse(setting, why);
-        }
-        match Runner::new(run.session.decoder(), setting.change(), now()) {
-            Some(runner) => {
-                run.session.rest();
-                self.tally.begin(setting, runner.total());
-                run.setting = Some((setting, runner));
-            }
-            None => self.tally.refuse(
-                setting,
-                "This encoder has no such sequence. Nothing was sent.",
-            ),
-        }
-    }
-
-    /// Turns the shaft of the built-in encoder.
-    fn turn(&mut self, speed: f64) {
-        if let Some(Run {
-            wire: Wire::Demo(emulator),
-            ..
-        }) = &mut self.run
+    fn start(&self, session: Session, wire: Wire, interval: Micros) {
         {
-            emulator.shaft = emulator.shaft.going_on(now(), speed);
+            let mut state = self.state.borrow_mut();
+            let filter = state.tally.filtered();
+            state.tally = Tally::new(now());
+            state.tally.filter(filter);
+            state.tally.start(session.decoder().clone());
+            state.run = Some(Run::reading(wire, session, interval, now()));
         }
+        self.set_link(Link::Waiting);
     }
+}
 
-    /// Ends a sequence before its next command.
-    fn stop(&mut self) {
-        if let Some((_, runner)) = self.run.as_mut().and_then(|run| run.setting.as_mut()) {
-            runner.stop();
-        }
-    }
-
-    /// Lets the session speak, answers for the built-in encoder, and posts a snapshot.
-    fn pump(&mut self) {
-        let now = now();
-        let mut wake = None;
-        if let Some(run) = &mut self.run {
-            run.wake(now);
-            let link = run.advance(now, &mut self.tally);
-            wake = Some(match &run.wire {
-                Wire::Port { .. } => run.deadline(),
-                Wire::Demo(emulator) => emulator
-                    .deadline()
-                    .unwrap_or(Micros::MAX)
-                    .min(run.deadline()),
-            });
-            if let Some(link) = link {
-                self.link = link;
-            }
-        }
-        if let (Some(at), Some(timer)) = (wake, &mut self.timer) {
-            timer.wake_by(at);
-        }
-        if self.wanted && self.tally.changed() {
-            self.wanted = false;
-            let mut snapshot = self.tally.snapshot(now);
-            snapshot.link = self.link.clone();
-            if self.run.is_none() {
-                snapshot.rate = 0.0;
-            }
-            (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
-        }
-    }
+/// The built-in encoder: its shaft swings.
+fn emulator(profile: &Profile) -> Result<Wire, ProfileError> {
+    let shaft = Shaft {
+        start: 4.85,
+        speed: 0.08,
+        sway: 0.35,
+        period: 11.0,
+    };
+    Ok(Wire::Demo(Box::new(Emulator::new(*profile, shaft)?)))
 }

@@ -27,8 +27,32 @@ pub enum ToEngine {
     StopSetting,
     /// Take the outcome of the last sequence off the page.
     ForgetSetting,
+    /// Search for the encoder on a port, or for the built-in one.
+    Find {
+        /// Which port; nothing for the built-in encoder.
+        port: Option<PortId>,
+        /// The profile, as the parameters of a link; the built-in encoder is made from it.
+        profile: String,
+    },
+    /// Look for every device on the BUS that is being read, then read them all.
+    Scan,
+    /// Show this device of the BUS on the dial.
+    Watch(u8),
+    /// Send bytes by hand.
+    Send {
+        /// The bytes.
+        bytes: Vec<u8>,
+        /// Whether the user has been asked about those that change an encoder.
+        confirmed: bool,
+    },
+    /// Ask so many times a second from now on; 0 is as fast as the link allows.
+    Pace(f64),
+    /// Which entries of the log the page shows.
+    Log(LogFilter),
     /// Turn the shaft of the built-in encoder evenly, in revolutions per second.
     Turn(f64),
+    /// What the built-in encoder reports, and what goes wrong on its line.
+    Knobs(Knobs),
     /// Stop and close the port.
     Close,
     /// The page has drawn the last snapshot and wants the next.
@@ -48,6 +72,39 @@ pub enum Setting {
     ResetErrors,
     /// The address on the bus.
     Address(u8),
+}
+
+/// What the built-in encoder reports, and what goes wrong on its line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Knobs {
+    /// The six status bits.
+    pub status: u8,
+    /// The position is not valid.
+    pub error: bool,
+    /// Something is near its limit.
+    pub warning: bool,
+    /// The adapter returns every request.
+    pub echo: bool,
+    /// No answers.
+    pub silent: bool,
+    /// Of 1000 reply bytes, how many have a bit turned over.
+    pub flip: u32,
+    /// Of 1000 replies, how many get lost.
+    pub lose: u32,
+}
+
+/// Which entries of the log are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LogFilter {
+    /// All.
+    #[default]
+    All,
+    /// What came.
+    Received,
+    /// What was sent.
+    Sent,
+    /// What is no good frame.
+    Faults,
 }
 
 impl Setting {
@@ -138,10 +195,22 @@ pub enum Link {
         /// Nothing but the echo of the requests.
         echo: bool,
     },
-    /// Bytes come back, but no check holds.
+    /// An encoder is being searched for.
+    Searching,
+    /// What comes back is no frame.
+    Garbage,
+    /// Frames come back, but their checks fail.
     Failing,
+    /// The frames are good with another profile.
+    OtherProfile {
+        /// It, as the parameters of a link.
+        profile: String,
+    },
     /// Bytes come without being asked for.
-    Unasked,
+    Unasked {
+        /// The profile they fit, where there is one.
+        profile: Option<String>,
+    },
     /// The profile cannot be read over a serial port.
     Unfit {
         /// Why.
@@ -167,8 +236,11 @@ impl Link {
             Self::Reading => "reading",
             Self::Silent { echo: false } => "silent",
             Self::Silent { echo: true } => "echo-only",
+            Self::Searching => "searching",
+            Self::Garbage => "garbage",
             Self::Failing => "failing",
-            Self::Unasked => "unasked",
+            Self::OtherProfile { .. } => "other-profile",
+            Self::Unasked { .. } => "unasked",
             Self::Unfit { .. } => "unfit",
             Self::Refused { .. } => "refused",
             Self::Lost => "lost",
@@ -213,6 +285,72 @@ pub struct Snapshot {
     pub moved: Option<f64>,
     /// The sequence that runs or has run last.
     pub progress: Option<Progress>,
+    /// Revolutions per second, from the angles of the last moments.
+    pub turning: Option<f64>,
+    /// The share of the last replies that were bad or missing.
+    pub error_rate: Option<f64>,
+    /// Bytes a second.
+    pub byte_rate: f64,
+    /// Longest pause within a reply in the last seconds, milliseconds.
+    pub gap: Option<f64>,
+    /// The devices of a BUS, after a scan.
+    pub devices: Vec<Device>,
+    /// What the last scan said, in words.
+    pub scan: Option<String>,
+    /// The search for an encoder that runs or has run last.
+    pub search: Option<Search>,
+}
+
+/// A device of a BUS.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Device {
+    /// Its address.
+    pub address: u8,
+    /// Its last good reading.
+    pub reading: Option<Shown>,
+    /// Good and bad frames.
+    pub good: f64,
+    /// Bad frames.
+    pub bad: f64,
+    /// Whether it answered within the last second.
+    pub fresh: bool,
+}
+
+/// A search for the encoder on a line.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Search {
+    /// What was tried.
+    pub trials: Vec<Trial>,
+    /// What was found, best first.
+    pub found: Vec<Found>,
+    /// Whether it is over.
+    pub done: bool,
+}
+
+/// What was tried in a search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// At which baud rate.
+    pub baud: u32,
+    /// The name of the format that was asked; nothing while it only listened.
+    pub format: Option<String>,
+    /// Requests sent.
+    pub requests: u32,
+    /// Bytes that came.
+    pub bytes: f64,
+}
+
+/// An encoder that a search has found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Found {
+    /// Its profile, as the parameters of a link.
+    pub profile: String,
+    /// How sure that is.
+    pub verdict: String,
+    /// Why, in sentences.
+    pub evidence: Vec<String>,
+    /// The fewest bits per turn that the angles fit in.
+    pub narrowest: u32,
 }
 
 /// A good reading.
@@ -265,7 +403,7 @@ pub struct Counts {
     pub framed: f64,
     /// Bytes in no frame, echoes included.
     pub skipped: f64,
-    /// Bytes that came while a sequence ran.
+    /// Bytes that came while a sequence or a scan ran, or after bytes sent by hand.
     pub set: f64,
     /// Requests without a reply.
     pub silent: f64,
@@ -278,10 +416,12 @@ pub struct Counts {
 pub struct Entry {
     /// Seconds since the link was opened.
     pub time: f64,
+    /// Whether it was sent from here.
+    pub sent: bool,
     /// The bytes, each with the class of its field.
     pub bytes: Vec<(u8, String)>,
-    /// Whether it is a frame whose checks hold.
-    pub ok: bool,
-    /// What is wrong, or why it is no frame.
+    /// Whether it is a frame whose checks hold; `None` where nothing is to be judged.
+    pub ok: Option<bool>,
+    /// What is wrong, why it is no frame, or who sent it.
     pub text: String,
 }

@@ -4,6 +4,7 @@ use crate::{
     browser::{error_text, property, settled},
     message::PortId,
 };
+use encoderscope::adapter::{Chip, Made};
 use js_sys::{Array, Uint8Array};
 use std::{cell::RefCell, rc::Rc};
 use wasm_bindgen::{JsCast, JsValue, closure::Closure};
@@ -129,27 +130,21 @@ pub fn name(port: PortId) -> String {
     let (Some(vendor), Some(product)) = (port.vendor, port.product) else {
         return format!("Serial port {}", port.index + 1);
     };
-    let known = ADAPTERS
-        .iter()
-        .find(|adapter| (adapter.0, adapter.1) == (vendor, product));
-    known.map_or_else(
+    Chip::of(vendor, product).map_or_else(
         || format!("USB {vendor:04x}:{product:04x}"),
-        |adapter| adapter.2.into(),
+        |chip| chip.name.into(),
     )
 }
 
-/// USB identities of common adapter chips (the makers' defaults).
-const ADAPTERS: &[(u16, u16, &str)] = &[
-    (0x0403, 0x6001, "FT232R"),
-    (0x0403, 0x6010, "FT2232H"),
-    (0x0403, 0x6011, "FT4232H"),
-    (0x0403, 0x6014, "FT232H"),
-    (0x0403, 0x6015, "FT230X"),
-    (0x067b, 0x2303, "PL2303"),
-    (0x10c4, 0xea60, "CP210x"),
-    (0x1a86, 0x55d3, "CH343"),
-    (0x1a86, 0x7523, "CH340"),
-];
+/// What a port makes of a baud rate.
+#[must_use]
+pub fn made(port: PortId, baud: u32) -> Made {
+    let chip = port
+        .vendor
+        .zip(port.product)
+        .and_then(|(vendor, product)| Chip::of(vendor, product));
+    chip.map_or(Made::Unknown, |chip| chip.made(baud))
+}
 
 /// An open port.
 #[derive(Clone, Debug)]

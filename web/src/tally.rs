@@ -1,29 +1,72 @@
 //! What the engine keeps of a link: counts, rates, the last reading and the last frames.
 
-use crate::message::{Counts, Entry, Lamp, Outcome, Progress, Setting, Shown, Snapshot};
+mod log;
+mod pace;
+
+use crate::{
+    link::query,
+    message::{
+        Counts, Device, Found, Lamp, LogFilter, Outcome, Progress, Search, Setting, Shown,
+        Snapshot, Trial,
+    },
+};
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
+    finder::Finder,
     reading::degrees,
     sequence::{Event, Holds},
     session::{Echo, Micros, Output},
 };
+use log::{Kind, Log, Seen};
+use pace::Pace;
 use std::collections::VecDeque;
 
-/// Entries of the log that a snapshot carries.
-const LOG: usize = 12;
 /// Replies over which latencies are sorted.
 const LATENCIES: usize = 512;
 /// The rate is taken over this time.
 const RATE_OVER: Micros = 1_000_000;
 
-/// A frame or skip as it came; it is explained only when a snapshot is made.
-struct Seen {
+/// The speed is taken over this time.
+const SPEED_OVER: Micros = 200_000;
+
+/// Who sends what reading does not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Who {
+    /// A guided setting.
+    Setting,
+    /// A scan or a search.
+    Scan,
+    /// The user.
+    Hand,
+}
+
+impl Who {
+    const fn text(self) -> &'static str {
+        match self {
+            Self::Setting => "setting",
+            Self::Scan => "scan",
+            Self::Hand => "by hand",
+        }
+    }
+}
+
+/// Where the shaft was.
+#[derive(Clone, Copy, Debug)]
+struct Place {
     at: Micros,
-    bytes: Vec<u8>,
-    frame: bool,
-    sure: bool,
-    text: String,
+    /// Part of a turn.
+    part: f64,
+    turns: Option<f64>,
+}
+
+/// What is kept of a device of a BUS.
+struct Kept {
+    address: u8,
+    reading: Option<Shown>,
+    good: f64,
+    bad: f64,
+    at: Option<Micros>,
 }
 
 /// What is kept of a link.
@@ -39,10 +82,14 @@ pub struct Tally {
     latencies: VecDeque<Micros>,
     /// Times of good frames within the last second.
     good_times: VecDeque<Micros>,
-    log: VecDeque<Seen>,
-    /// Parts of a turn within the last second.
-    parts: VecDeque<(Micros, f64)>,
+    log: Log,
+    /// Where the shaft was within the last second.
+    places: VecDeque<Place>,
+    pace: Pace,
     progress: Option<Progress>,
+    devices: Vec<Kept>,
+    scan: Option<String>,
+    search: Option<Search>,
 }
 
 impl std::fmt::Debug for Tally {
@@ -67,15 +114,28 @@ impl Tally {
             seen_bits: Vec::new(),
             latencies: VecDeque::new(),
             good_times: VecDeque::new(),
-            log: VecDeque::new(),
-            parts: VecDeque::new(),
+            log: Log::default(),
+            places: VecDeque::new(),
+            pace: Pace::default(),
             progress: None,
+            devices: Vec::new(),
+            scan: None,
+            search: None,
         }
     }
 
-    /// A link is open.
+    /// A link is open, or goes on with another device.
     pub fn start(&mut self, decoder: Decoder) {
         self.decoder = Some(decoder);
+        self.last_good = None;
+        self.seen_bits.clear();
+        self.places.clear();
+        self.changed = true;
+    }
+
+    /// Shows other entries of the log.
+    pub const fn filter(&mut self, filter: LogFilter) {
+        self.log.filter = filter;
         self.changed = true;
     }
 
@@ -90,9 +150,16 @@ impl Tally {
         self.changed
     }
 
+    /// Which entries of the log are shown.
+    #[must_use]
+    pub const fn filtered(&self) -> LogFilter {
+        self.log.filter
+    }
+
     /// Bytes have come in.
-    pub fn received(&mut self, count: usize) {
+    pub fn received(&mut self, now: Micros, count: usize) {
         self.counts.bytes += count as f64;
+        self.pace.bytes(now, count);
     }
 
     /// The port reported a break, framing, parity or overrun error.
@@ -130,9 +197,86 @@ impl Tally {
         self.end(Some(false), why.into());
     }
 
-    /// Bytes have come in while a sequence runs.
-    pub fn received_in_sequence(&mut self, count: usize) {
-        self.counts.set += count as f64;
+    /// Bytes have come in that are not for the session.
+    pub fn received_aside(&mut self, now: Micros, bytes: &[u8]) {
+        self.counts.set += bytes.len() as f64;
+        self.remember(now, bytes, Kind::Aside, String::new());
+    }
+
+    /// Bytes are sent that the session did not ask for.
+    pub fn sent(&mut self, now: Micros, bytes: &[u8], who: Who) {
+        self.pace.request();
+        self.remember(now, bytes, Kind::Sent, who.text().into());
+    }
+
+    /// A scan is over.
+    pub fn scanned(&mut self, addresses: &[u8], disturbed: &[u8]) {
+        self.devices = addresses
+            .iter()
+            .map(|address| Kept {
+                address: *address,
+                reading: None,
+                good: 0.0,
+                bad: 0.0,
+                at: None,
+            })
+            .collect();
+        let found = match addresses.len() {
+            0 => "No device answers.".to_owned(),
+            1 => "One device answers.".to_owned(),
+            count => format!("{count} devices answer."),
+        };
+        let strange: Vec<String> = disturbed.iter().map(ToString::to_string).collect();
+        self.scan = Some(match strange.is_empty() {
+            true => found,
+            false => format!(
+                "{found} What answers at {} is damaged: a disturbed device, or two with one address.",
+                strange.join(", ")
+            ),
+        });
+        self.changed = true;
+    }
+
+    /// One device alone is read again.
+    pub fn forget_devices(&mut self) {
+        self.devices.clear();
+        self.scan = None;
+        self.changed = true;
+    }
+
+    /// The addresses of the devices that are read.
+    #[must_use]
+    pub fn addresses(&self) -> Vec<u8> {
+        self.devices.iter().map(|device| device.address).collect()
+    }
+
+    /// How far a search is.
+    pub fn searched(&mut self, finder: &Finder) {
+        let trials = finder.trials().iter().map(|trial| Trial {
+            baud: trial.baud,
+            format: trial.format.map(|format| format.name().into()),
+            requests: trial.requests,
+            bytes: trial.bytes as f64,
+        });
+        let found = finder.found().iter().map(|found| Found {
+            profile: query(&found.profile),
+            verdict: found.verdict.name().into(),
+            evidence: found.evidence.clone(),
+            narrowest: found.narrowest,
+        });
+        self.search = Some(Search {
+            trials: trials.collect(),
+            found: found.collect(),
+            done: false,
+        });
+        self.changed = true;
+    }
+
+    /// Nothing goes on any more on this link.
+    pub const fn interrupted(&mut self) {
+        if let Some(search) = &mut self.search {
+            search.done = true;
+        }
         self.changed = true;
     }
 
@@ -164,7 +308,7 @@ impl Tally {
 
     fn end(&mut self, changed: Option<bool>, text: String) {
         // What was read before says nothing about the shaft any more.
-        self.parts.clear();
+        self.places.clear();
         if let Some(progress) = &mut self.progress {
             progress.outcome = Some(Outcome { changed, text });
         }
@@ -180,14 +324,14 @@ impl Tally {
     /// How far the shaft has moved within the last second, in turns, once that is known.
     #[must_use]
     pub fn moved(&self, now: Micros) -> Option<f64> {
-        let (first, reference) = *self.parts.front()?;
-        let (last, _) = *self.parts.back()?;
+        let first = *self.places.front()?;
+        let last = self.places.back()?.at;
         let fresh = now.saturating_sub(last) < RATE_OVER / 4;
-        if !fresh || last - first < RATE_OVER * 9 / 10 {
+        if !fresh || last - first.at < RATE_OVER * 9 / 10 {
             return None;
         }
-        let away = self.parts.iter().map(|(_, part)| {
-            let apart = part - reference;
+        let away = self.places.iter().map(|place| {
+            let apart = place.part - first.part;
             apart - apart.round()
         });
         let (low, high) = away.fold((0.0f64, 0.0f64), |(low, high), apart| {
@@ -196,14 +340,43 @@ impl Tally {
         Some(high - low)
     }
 
+    /// How fast the shaft turns, in revolutions per second; `None` where it may have turned by
+    /// half a turn and more from one frame to the next.
+    fn turning(&self) -> Option<f64> {
+        let last = *self.places.back()?;
+        let since = last.at.saturating_sub(SPEED_OVER);
+        let recent = self.places.iter().filter(|place| place.at >= since);
+        let first = *recent.clone().next()?;
+        let apart = |one: &Place, next: &Place| {
+            let part = next.part - one.part;
+            match (one.turns, next.turns) {
+                // A counter that begins again from 0 is not a turn backwards.
+                (Some(one), Some(next)) if (next - one).abs() < 1000.0 => Some(next - one + part),
+                _ => Some(part - part.round()).filter(|part| part.abs() < 0.4),
+            }
+        };
+        let mut moved = 0.0;
+        for (one, next) in recent.clone().zip(recent.skip(1)) {
+            moved += apart(one, next)?;
+        }
+        let took = last.at - first.at;
+        (took >= SPEED_OVER / 2).then(|| moved * 1e6 / took as f64)
+    }
+
     /// Counts what the session says; returns whether it is a good frame.
     pub fn take(&mut self, now: Micros, output: &Output) -> bool {
         match output {
-            Output::Transmit(_) => return false,
-            Output::Silent { .. } => self.counts.silent += 1.0,
+            Output::Transmit(bytes) => {
+                self.pace.request();
+                self.remember(now, bytes, Kind::Sent, String::new());
+            }
+            Output::Silent { .. } => {
+                self.counts.silent += 1.0;
+                self.pace.frame(now, false);
+            }
             Output::Skip { bytes, why } => {
                 self.counts.skipped += bytes.len() as f64;
-                self.remember(now, bytes, false, true, why.to_string());
+                self.remember(now, bytes, Kind::Skip, why.to_string());
             }
             Output::Frame {
                 bytes,
@@ -211,7 +384,6 @@ impl Tally {
                 latency,
             } => {
                 self.counts.framed += bytes.len() as f64;
-                self.changed = true;
                 return self.take_frame(now, bytes, *sure, *latency);
             }
         }
@@ -226,59 +398,94 @@ impl Tally {
         sure: bool,
         latency: Option<Micros>,
     ) -> bool {
-        let frame = self
-            .decoder
-            .as_ref()
-            .and_then(|decoder| frame_of(decoder, bytes, sure));
+        let Some(decoder) = self.decoder.take() else {
+            return false;
+        };
+        let frame = frame_of(&decoder, bytes, sure);
         let text = match &frame {
             Some(frame) => frame.faults().first().map(|fault| fault.kind.to_string()),
             None => Some("no frame of this format".into()),
         };
         let good = text.is_none();
-        if good {
-            if let Some(frame) = &frame {
-                let named = frame.layout.fields().flat_map(|field| {
-                    let raw = frame.layout.read(field, frame.bits);
-                    field
-                        .row
-                        .bits
-                        .iter()
-                        .map(move |bit| bits::bit(raw, bit.place))
-                });
-                for (index, set) in named.enumerate() {
-                    if index == self.seen_bits.len() {
-                        self.seen_bits.push(0.0);
-                    }
-                    self.seen_bits[index] += f64::from(u8::from(set));
+        self.pace.frame(now, good);
+        if let Some(frame) = &frame {
+            self.take_device(now, frame, good);
+        }
+        match (good, &frame) {
+            (true, Some(frame)) => {
+                self.counts.good += 1.0;
+                if self.devices.is_empty() || is_own(&decoder, frame) {
+                    self.take_good(now, frame);
+                }
+                self.good_times.push_back(now);
+                self.forget(now);
+                self.latencies.extend(latency);
+                if self.latencies.len() > LATENCIES {
+                    self.latencies.pop_front();
                 }
             }
-            if let Some(shown) = frame.as_ref().and_then(shown) {
-                self.parts.push_back((now, shown.degrees / 360.0));
-            }
-            self.counts.good += 1.0;
-            self.last_good = Some(bytes.into());
-            self.good_times.push_back(now);
-            self.forget(now);
-            self.latencies.extend(latency);
-            if self.latencies.len() > LATENCIES {
-                self.latencies.pop_front();
-            }
-        } else {
-            self.counts.bad += 1.0;
+            _ => self.counts.bad += 1.0,
         }
-        self.remember(now, bytes, true, sure, text.unwrap_or_default());
+        self.decoder = Some(decoder);
+        self.remember(
+            now,
+            bytes,
+            Kind::Frame { sure, good },
+            text.unwrap_or_default(),
+        );
         good
     }
 
-    fn remember(&mut self, at: Micros, bytes: &[u8], frame: bool, sure: bool, text: String) {
-        self.log.push_front(Seen {
+    /// A good frame of the encoder on the dial.
+    fn take_good(&mut self, now: Micros, frame: &Frame<'_>) {
+        let named = frame.layout.fields().flat_map(|field| {
+            let raw = frame.layout.read(field, frame.bits);
+            field
+                .row
+                .bits
+                .iter()
+                .map(move |bit| bits::bit(raw, bit.place))
+        });
+        for (index, set) in named.enumerate() {
+            if index == self.seen_bits.len() {
+                self.seen_bits.push(0.0);
+            }
+            self.seen_bits[index] += f64::from(u8::from(set));
+        }
+        if let Some(shown) = shown(frame) {
+            self.places.push_back(Place {
+                at: now,
+                part: shown.degrees / 360.0,
+                turns: shown.turns,
+            });
+        }
+        self.last_good = Some(frame.bits.bytes().into());
+    }
+
+    /// A frame of one device among several.
+    fn take_device(&mut self, now: Micros, frame: &Frame<'_>, good: bool) {
+        let address = frame.values().address;
+        let mut devices = self.devices.iter_mut();
+        if let Some(device) = devices.find(|device| Some(device.address) == address) {
+            match good {
+                true => {
+                    device.good += 1.0;
+                    device.reading = shown(frame);
+                    device.at = Some(now);
+                }
+                false => device.bad += 1.0,
+            }
+        }
+    }
+
+    fn remember(&mut self, at: Micros, bytes: &[u8], kind: Kind, text: String) {
+        self.changed = true;
+        self.log.push(Seen {
             at,
             bytes: bytes.into(),
-            frame,
-            sure,
+            kind,
             text,
         });
-        self.log.truncate(LOG);
     }
 
     /// Forgets good frames that the rate no longer counts.
@@ -291,11 +498,11 @@ impl Tally {
             self.good_times.pop_front();
         }
         while self
-            .parts
+            .places
             .front()
-            .is_some_and(|(at, _)| at + RATE_OVER < now)
+            .is_some_and(|place| place.at + RATE_OVER < now)
         {
-            self.parts.pop_front();
+            self.places.pop_front();
         }
     }
 
@@ -322,14 +529,21 @@ impl Tally {
             },
             moved: self.moved(now),
             progress: self.progress.clone(),
+            turning: self.turning(),
+            error_rate: self.pace.error_rate(now),
+            byte_rate: self.pace.byte_rate(now),
+            gap: self.pace.gap(now).map(|gap| gap as f64 / 1000.0),
+            devices: self
+                .devices
+                .iter()
+                .map(|device| device.shown(now))
+                .collect(),
+            scan: self.scan.clone(),
+            search: self.search.clone(),
             ..Snapshot::default()
         };
         if let Some(decoder) = &self.decoder {
-            snapshot.log = self
-                .log
-                .iter()
-                .map(|seen| entry(decoder, seen, self.opened))
-                .collect();
+            snapshot.log = self.log.entries(decoder, self.opened);
             if let Some(bytes) = &self.last_good
                 && let Some(frame) = frame_of(decoder, bytes, true)
             {
@@ -374,27 +588,20 @@ fn shown(frame: &Frame<'_>) -> Option<Shown> {
     })
 }
 
-fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
-    let frame = if seen.frame {
-        frame_of(decoder, &seen.bytes, seen.sure)
-    } else {
-        None
-    };
-    let class = |index: usize| {
-        let field = frame
-            .as_ref()
-            .and_then(|frame| frame.layout.field_at(index * 8 + 7));
-        field.map_or("none", |field| field.row.role.class().name())
-    };
-    Entry {
-        time: seen.at.saturating_sub(opened) as f64 / 1e6,
-        bytes: seen
-            .bytes
-            .iter()
-            .enumerate()
-            .map(|(index, byte)| (*byte, class(index).into()))
-            .collect(),
-        ok: frame.as_ref().is_some_and(Frame::ok),
-        text: seen.text.clone(),
+/// Whether a frame comes from the device of the profile.
+fn is_own(decoder: &Decoder, frame: &Frame<'_>) -> bool {
+    let address = frame.values().address;
+    address.is_none_or(|address| u32::from(address) == decoder.profile().address)
+}
+
+impl Kept {
+    fn shown(&self, now: Micros) -> Device {
+        Device {
+            address: self.address,
+            reading: self.reading,
+            good: self.good,
+            bad: self.bad,
+            fresh: self.at.is_some_and(|at| now < at + RATE_OVER),
+        }
     }
 }

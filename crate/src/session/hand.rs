@@ -19,14 +19,17 @@ enum State {
 /// ```
 /// use encoderscope::session::Hand;
 /// let mut hand = Hand::new(&[0x64], 0);
-/// assert_eq!(hand.handle_timeout(hand.deadline()), Some(vec![0x64]));
+/// hand.handle_timeout(hand.deadline());
+/// assert_eq!(hand.poll_output(), Some(vec![0x64]));
 /// hand.handle_input(30_000, &[1, 2, 3]);
-/// assert_eq!(hand.handle_timeout(hand.deadline()), None);
+/// hand.handle_timeout(hand.deadline());
 /// assert_eq!(hand.reply(), Some(&[1, 2, 3][..]));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Hand {
     bytes: Vec<u8>,
+    /// What is to be sent now.
+    output: Option<Vec<u8>>,
     received: Vec<u8>,
     state: State,
 }
@@ -37,6 +40,7 @@ impl Hand {
     pub fn new(bytes: &[u8], now: Micros) -> Self {
         Self {
             bytes: bytes.into(),
+            output: None,
             received: Vec::new(),
             // What was asked before may still be answered.
             state: State::Ready(now + QUIET),
@@ -52,32 +56,32 @@ impl Hand {
         }
     }
 
-    /// Bytes have come; those before the sending belong to nobody and are returned.
-    pub fn handle_input<'b>(&mut self, now: Micros, bytes: &'b [u8]) -> &'b [u8] {
+    /// Bytes have come; those before the sending belong to nobody.
+    pub fn handle_input(&mut self, now: Micros, bytes: &[u8]) {
         // A line that never rests is not waited for.
-        let State::Waiting(until) = self.state else {
-            return bytes;
-        };
-        self.received.extend_from_slice(bytes);
-        let full = self.received.len() >= LONGEST;
-        let until = if full { now } else { until.min(now + QUIET) };
-        self.state = State::Waiting(until);
-        &[]
+        if let State::Waiting(until) = self.state {
+            self.received.extend_from_slice(bytes);
+            let full = self.received.len() >= LONGEST;
+            let until = if full { now } else { until.min(now + QUIET) };
+            self.state = State::Waiting(until);
+        }
     }
 
-    /// The time of [`Self::deadline`] has come; returns what is to be sent.
-    pub fn handle_timeout(&mut self, now: Micros) -> Option<Vec<u8>> {
+    /// The time of [`Self::deadline`] has come; earlier calls do nothing.
+    pub fn handle_timeout(&mut self, now: Micros) {
         match self.state {
             State::Ready(at) if now >= at => {
                 self.state = State::Waiting(now + TIMEOUT);
-                Some(self.bytes.clone())
+                self.output = Some(core::mem::take(&mut self.bytes));
             }
-            State::Waiting(at) if now >= at => {
-                self.state = State::Ended;
-                None
-            }
-            _ => None,
+            State::Waiting(at) if now >= at => self.state = State::Ended,
+            _ => {}
         }
+    }
+
+    /// The bytes, when they are to be sent.
+    pub const fn poll_output(&mut self) -> Option<Vec<u8>> {
+        self.output.take()
     }
 
     /// What has come back, once it is over.

@@ -1,48 +1,56 @@
-//! An open link: a session, or a sequence meanwhile, over a port or with the built-in encoder.
+//! An open link: a session, or what it rests for, over a port or with the built-in encoder.
 
+use super::talk::{After, Talk};
 use crate::{
+    link::query,
     message::{Link, Setting},
     serial::{Port, Reader},
-    tally::Tally,
+    tally::{Tally, Who},
 };
 use encoderscope::{
     decode::Decoder,
+    doctor::{Doctor, Finding},
     emulator::Emulator,
-    framing::Why,
+    finder::{self, Finder},
     profile::Profile,
     sequence::{Change, Event, Holds, Runner},
     session::{Micros, Output, Session},
 };
 
-/// Requests without a reply after which the link is called silent.
-const SILENT_AFTER: u32 = 3;
-/// Frames with a fault in a row after which the link is called failing.
-const FAILING_AFTER: u32 = 10;
-/// Bytes without a request after which the encoder is called free-running.
-const UNASKED_AFTER: usize = 100;
 /// So late a step is only made after the tab was frozen or the machine asleep.
 const ASLEEP: Micros = 1_000_000;
 
 /// An open link.
 pub(super) struct Run {
-    pub(super) session: Session,
+    /// What reads; nothing while an encoder is searched for.
+    pub(super) session: Option<Session>,
     pub(super) interval: Micros,
-    /// A sequence that runs; the session rests meanwhile.
-    pub(super) setting: Option<(Setting, Runner)>,
+    /// What the session rests for.
+    pub(super) talk: Option<Talk>,
     /// How far the built-in encoder has lived; its time never runs backwards.
-    pub(super) lived: Micros,
+    lived: Micros,
     /// When the link was last looked at.
-    pub(super) looked: Micros,
+    looked: Micros,
     pub(super) wire: Wire,
-    pub(super) silent: u32,
-    pub(super) failing: u32,
-    /// Bytes that came unasked since the last good frame.
-    pub(super) unasked: usize,
+    doctor: Doctor,
+    /// What the doctor has said last.
+    said: Finding,
+    /// What only the engine can do.
+    pub(super) todo: Option<Todo>,
 }
 
 pub(super) enum Wire {
     Port { port: Port, reader: Option<Reader> },
     Demo(Box<Emulator>),
+}
+
+/// What a search wants of the engine.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Todo {
+    /// The port at another baud rate.
+    Reopen(u32),
+    /// Nothing more.
+    Close,
 }
 
 impl Wire {
@@ -55,165 +63,345 @@ impl Wire {
 }
 
 impl Run {
-    /// Runs up to `now`; returns how the link is when that has become clear.
+    /// A link that reads.
+    pub(super) fn reading(wire: Wire, session: Session, interval: Micros, now: Micros) -> Self {
+        let doctor = Doctor::new(*session.decoder().profile(), now);
+        Self {
+            session: Some(session),
+            ..Self::new(wire, doctor, interval, now)
+        }
+    }
+
+    /// A link on which an encoder is searched for.
+    pub(super) fn searching(wire: Wire, talk: Talk, now: Micros) -> Self {
+        let doctor = Doctor::new(Profile::base(encoderscope::format::Format::T485), now);
+        Self {
+            talk: Some(talk),
+            ..Self::new(wire, doctor, 0, now)
+        }
+    }
+
+    const fn new(wire: Wire, doctor: Doctor, interval: Micros, now: Micros) -> Self {
+        Self {
+            session: None,
+            interval,
+            talk: None,
+            lived: now,
+            looked: now,
+            wire,
+            doctor,
+            said: Finding::Waiting,
+            todo: None,
+        }
+    }
+
+    /// Runs up to `now`; returns how the link is when that has changed.
     pub(super) fn advance(&mut self, now: Micros, tally: &mut Tally) -> Option<Link> {
-        let mut link = None;
         // The built-in encoder lives in virtual time, which catches up here; after a pause of
         // the tab it does not replay more than a second.
         let oldest = now.saturating_sub(1_000_000);
         loop {
             let mut idle = true;
+            let host = self.host_deadline();
             let at = match &mut self.wire {
                 Wire::Port { .. } => now,
                 Wire::Demo(emulator) => {
-                    let host = match &self.setting {
-                        Some((_, runner)) => runner.deadline(),
-                        None => self.session.deadline(),
-                    };
                     let next = emulator.deadline().unwrap_or(Micros::MAX).min(host);
                     let at = next.max(oldest).max(self.lived).min(now);
                     self.lived = at;
                     if let Some(bytes) = emulator.poll_output(at) {
-                        tally.received(bytes.len());
                         self.take(at, &bytes, tally);
                         idle = false;
                     }
                     at
                 }
             };
-            if self.deadline() <= at {
-                match &mut self.setting {
-                    Some((_, runner)) => runner.handle_timeout(at),
-                    None => self.session.handle_timeout(at),
+            if self.host_deadline() <= at {
+                match (&mut self.talk, &mut self.session) {
+                    (Some(talk), _) => talk.handle_timeout(at),
+                    (None, Some(session)) => session.handle_timeout(at),
+                    (None, None) => {}
                 }
                 idle = false;
             }
             idle &= !self.follow(at, tally);
-            while let Some(output) = self.session.poll_output() {
-                idle = false;
-                if let Output::Transmit(bytes) = &output {
-                    self.wire.send(at, bytes);
-                }
-                link = self.judge(&output, tally.take(at, &output)).or(link);
-            }
-            tally.echo(self.session.echo());
-            if idle {
-                return link;
+            idle &= !self.follow_session(at, tally);
+            if idle || self.todo.is_some() {
+                return self.news();
             }
         }
+    }
+
+    /// How the link is, when that has changed.
+    fn news(&mut self) -> Option<Link> {
+        let finding = self.doctor.finding();
+        if self.session.is_none() || self.said == finding {
+            return None;
+        }
+        self.said = finding;
+        Some(match finding {
+            Finding::Waiting => return None,
+            Finding::Silent => Link::Silent { echo: false },
+            Finding::EchoOnly => Link::Silent { echo: true },
+            Finding::Garbage => Link::Garbage,
+            Finding::ChecksFail => Link::Failing,
+            Finding::OtherProfile(profile) => Link::OtherProfile {
+                profile: query(&profile),
+            },
+            Finding::Unasked(profile) => Link::Unasked {
+                profile: profile.as_ref().map(query),
+            },
+            Finding::Good => Link::Reading,
+        })
     }
 
     /// Begins anew after a sleep. What is read then came at a time that nobody knows, and what was
     /// seen of the shaft before a sequence no longer counts.
     pub(super) fn wake(&mut self, now: Micros) {
         let overslept = |due: Micros| now > due.saturating_add(ASLEEP);
-        if overslept(self.deadline()) && overslept(self.looked) {
-            match &mut self.setting {
-                Some((_, runner)) => runner.stop(),
-                None => self.session.rest(),
+        if overslept(self.host_deadline()) && overslept(self.looked) {
+            match (&mut self.talk, &mut self.session) {
+                (Some(Talk::Set(_, runner)), _) => runner.stop(),
+                (Some(_), _) | (None, None) => {}
+                (None, Some(session)) => session.rest(),
             }
         }
         self.looked = now;
     }
 
+    fn host_deadline(&self) -> Micros {
+        match (&self.talk, &self.session) {
+            (Some(talk), _) => talk.deadline(),
+            (None, Some(session)) => session.deadline(),
+            (None, None) => Micros::MAX,
+        }
+    }
+
     /// When something is to be done next.
     pub(super) fn deadline(&self) -> Micros {
-        match &self.setting {
-            Some((_, runner)) => runner.deadline(),
-            None => self.session.deadline(),
+        let host = self.host_deadline();
+        match &self.wire {
+            Wire::Port { .. } => host,
+            Wire::Demo(emulator) => emulator.deadline().unwrap_or(Micros::MAX).min(host),
         }
     }
 
     /// Bytes have come.
     pub(super) fn take(&mut self, at: Micros, bytes: &[u8], tally: &mut Tally) {
-        match &mut self.setting {
-            Some((_, runner)) => {
-                tally.received_in_sequence(bytes.len());
-                runner.handle_input(at, bytes);
+        tally.received(at, bytes.len());
+        match (&mut self.talk, &mut self.session) {
+            (Some(talk), _) => {
+                tally.received_aside(at, bytes);
+                talk.handle_input(at, bytes);
             }
-            None => self.session.handle_input(at, bytes),
+            (None, Some(session)) => session.handle_input(at, bytes),
+            (None, None) => {}
         }
     }
 
     /// The link is going away: a sequence ends here.
     pub(super) fn abandon(&mut self, tally: &mut Tally) {
-        if let Some((_, runner)) = &mut self.setting {
+        if let Some(Talk::Set(_, runner)) = &mut self.talk {
             runner.stop();
             while let Some(event) = runner.poll_output() {
                 tally.follow(&event);
             }
         }
+        tally.interrupted();
     }
 
-    /// Lets a sequence speak; returns whether it did.
-    fn follow(&mut self, at: Micros, tally: &mut Tally) -> bool {
+    fn follow_session(&mut self, at: Micros, tally: &mut Tally) -> bool {
+        let Some(session) = &mut self.session else {
+            return false;
+        };
         let mut spoke = false;
-        while let Some((setting, runner)) = &mut self.setting {
-            let setting = *setting;
-            let Some(event) = runner.poll_output() else {
-                break;
-            };
+        while let Some(output) = session.poll_output() {
             spoke = true;
-            tally.follow(&event);
-            match event {
-                Event::Transmit(bytes) => self.wire.send(at, &bytes),
-                Event::Progress { .. } => {}
-                Event::Ended { holds, .. } => {
-                    self.setting = None;
-                    self.resume(setting.change(), holds, tally);
-                }
+            if let Output::Transmit(bytes) = &output {
+                self.wire.send(at, bytes);
             }
+            let good = tally.take(at, &output);
+            self.doctor.watch(at, &output, good);
         }
+        tally.echo(session.echo());
         spoke
     }
 
-    /// Reads on after a sequence, at the address that the encoder has now.
-    fn resume(&mut self, change: Change, holds: Holds, tally: &mut Tally) {
-        let (Change::Address(address), Holds::New) = (change, holds) else {
-            return;
-        };
-        let profile = Profile {
-            address: u32::from(address),
-            ..*self.session.decoder().profile()
-        };
-        let session = Decoder::new(profile)
-            .ok()
-            .and_then(|decoder| Session::new(decoder, self.interval).ok());
-        if let Some(session) = session {
-            tally.start(session.decoder().clone());
-            self.session = session;
+    /// Lets what the session rests for speak; returns whether it did.
+    fn follow(&mut self, at: Micros, tally: &mut Tally) -> bool {
+        match &mut self.talk {
+            None => false,
+            Some(Talk::Set(setting, runner)) => {
+                let setting = *setting;
+                let Some(event) = runner.poll_output() else {
+                    return false;
+                };
+                tally.follow(&event);
+                match event {
+                    Event::Transmit(bytes) => self.send(at, &bytes, Who::Setting, tally),
+                    Event::Progress { .. } => {}
+                    Event::Ended { holds, .. } => {
+                        self.talk = None;
+                        self.resume(at, setting.change(), holds, tally);
+                    }
+                }
+                true
+            }
+            Some(Talk::Hand(hand)) => {
+                if let Some(bytes) = hand.poll_output() {
+                    self.send(at, &bytes, Who::Hand, tally);
+                } else if hand.reply().is_some() {
+                    self.talk = None;
+                } else {
+                    return false;
+                }
+                true
+            }
+            Some(Talk::Scan(finder, _)) => {
+                match finder.poll_output() {
+                    None => return false,
+                    Some(finder::Output::Transmit(bytes)) => {
+                        self.send(at, &bytes, Who::Scan, tally);
+                    }
+                    // A scan stays at the baud rate of its profile.
+                    Some(finder::Output::Open(_)) => finder.handle_opened(at),
+                    Some(finder::Output::Ended) => {
+                        if let Some(Talk::Scan(finder, after)) = self.talk.take() {
+                            self.scanned(at, &finder, after, tally);
+                        }
+                    }
+                }
+                true
+            }
+            Some(Talk::Find(finder, _)) => {
+                let Some(output) = finder.poll_output() else {
+                    return false;
+                };
+                tally.searched(finder);
+                match (output, &mut self.wire) {
+                    (finder::Output::Transmit(bytes), _) => {
+                        self.send(at, &bytes, Who::Scan, tally);
+                    }
+                    (finder::Output::Open(baud), Wire::Demo(emulator)) => {
+                        emulator.faults.rate = Some(baud);
+                        emulator.drop_unread(at);
+                        finder.handle_opened(at);
+                    }
+                    (finder::Output::Open(baud), Wire::Port { .. }) => {
+                        self.todo = Some(Todo::Reopen(baud));
+                    }
+                    (finder::Output::Ended, _) => self.todo = Some(Todo::Close),
+                }
+                true
+            }
         }
     }
 
-    fn judge(&mut self, output: &Output, good: bool) -> Option<Link> {
-        match output {
-            Output::Frame { .. } if good => {
-                self.silent = 0;
-                self.failing = 0;
-                self.unasked = 0;
-                Some(Link::Reading)
+    fn send(&mut self, at: Micros, bytes: &[u8], who: Who, tally: &mut Tally) {
+        tally.sent(at, bytes, who);
+        self.wire.send(at, bytes);
+    }
+
+    /// A scan is over.
+    fn scanned(&mut self, at: Micros, finder: &Finder, after: After, tally: &mut Tally) {
+        let addresses = finder.found().first();
+        let addresses = addresses.map_or(&[][..], |found| &found.addresses);
+        match after {
+            After::Read => {
+                tally.scanned(addresses, finder.disturbed());
+                self.read_devices(at, None, addresses, tally);
             }
-            Output::Frame { .. }
-            | Output::Skip {
-                why: Why::Truncated { .. },
-                ..
-            } => {
-                self.silent = 0;
-                self.failing += 1;
-                (self.failing >= FAILING_AFTER).then_some(Link::Failing)
+            After::Set(setting) => {
+                let own = self
+                    .session
+                    .as_ref()
+                    .map(|session| session.decoder().profile().address);
+                let alone = addresses.iter().map(|address| u32::from(*address)).eq(own);
+                if alone && finder.disturbed().is_empty() {
+                    self.set(setting, at, tally);
+                } else {
+                    tally.refuse(setting, &not_alone(addresses, finder.disturbed()));
+                }
             }
-            Output::Silent { echo } => {
-                self.silent += 1;
-                (self.silent >= SILENT_AFTER).then_some(Link::Silent { echo: *echo })
-            }
-            Output::Skip {
-                why: Why::Unasked,
-                bytes,
-            } => {
-                self.unasked += bytes.len();
-                (self.unasked >= UNASKED_AFTER).then_some(Link::Unasked)
-            }
-            Output::Skip { .. } | Output::Transmit(_) => None,
         }
     }
+
+    /// Begins a sequence.
+    pub(super) fn set(&mut self, setting: Setting, now: Micros, tally: &mut Tally) {
+        let Some(session) = &mut self.session else {
+            return;
+        };
+        match Runner::new(session.decoder(), setting.change(), now) {
+            Some(runner) => {
+                session.rest();
+                tally.begin(setting, runner.total());
+                self.talk = Some(Talk::Set(setting, Box::new(runner)));
+            }
+            None => tally.refuse(
+                setting,
+                "This encoder has no such sequence. Nothing was sent.",
+            ),
+        }
+    }
+
+    /// Reads several devices of a BUS in turn, with the one at `watched` on the dial.
+    pub(super) fn read_devices(
+        &mut self,
+        now: Micros,
+        watched: Option<u8>,
+        addresses: &[u8],
+        tally: &mut Tally,
+    ) {
+        if let Some(session) = &mut self.session {
+            session.rest();
+        }
+        self.follow_session(now, tally);
+        let (Some(session), Some(first)) = (&mut self.session, addresses.first()) else {
+            return;
+        };
+        let profile = *session.decoder().profile();
+        let own = addresses
+            .iter()
+            .find(|address| u32::from(**address) == profile.address);
+        let address = u32::from(watched.unwrap_or(*own.unwrap_or(first)));
+        let decoder = Decoder::new(Profile { address, ..profile }).ok();
+        let made =
+            decoder.and_then(|decoder| Session::of_devices(decoder, addresses, self.interval).ok());
+        if let Some(new) = made {
+            tally.start(new.decoder().clone());
+            *session = new;
+        }
+    }
+
+    /// Reads on after a sequence, at the address that the encoder has now.
+    fn resume(&mut self, at: Micros, change: Change, holds: Holds, tally: &mut Tally) {
+        if let (Change::Address(address), Holds::New) = (change, holds) {
+            tally.forget_devices();
+            self.read_devices(at, Some(address), &[address], tally);
+        }
+    }
+}
+
+/// Why the address cannot be set.
+fn not_alone(addresses: &[u8], disturbed: &[u8]) -> String {
+    let list = |addresses: &[u8]| {
+        let list: Vec<String> = addresses.iter().map(ToString::to_string).collect();
+        list.join(", ")
+    };
+    let why = match (addresses, disturbed) {
+        ([], []) => "No device answered the scan.".to_owned(),
+        (_, []) if addresses.len() > 1 => {
+            format!(
+                "{} devices answer, at {}.",
+                addresses.len(),
+                list(addresses)
+            )
+        }
+        (_, []) => format!("The device answers at {} now.", list(addresses)),
+        _ => format!(
+            "What answers at {} is damaged: two devices may share the address.",
+            list(disturbed)
+        ),
+    };
+    format!("{why} Connect exactly one device, then try again. Nothing was sent.")
 }

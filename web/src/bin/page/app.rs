@@ -1,6 +1,8 @@
 //! The shell: areas, profile, theme, and the state that they share.
 
-use crate::{adapters, connection::Connection, console::Console, decode::Decode};
+use crate::{
+    adapters, connection::Connection, console::Console, decode::Decode, theme::ThemeSwitch,
+};
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
@@ -59,6 +61,8 @@ pub(crate) struct App {
     pub(crate) port: RwSignal<Option<PortId>>,
     /// What the engine was last started with.
     running: RwSignal<Option<Profile>>,
+    /// How often a second the encoder is asked; 0 is as often as it answers.
+    pub(crate) pace: RwSignal<f64>,
     /// Why there is no port, in words.
     pub(crate) notice: RwSignal<Option<String>>,
     /// Text of the decode area.
@@ -84,6 +88,7 @@ impl App {
             ports: RwSignal::new(Vec::new()),
             port: RwSignal::new(None),
             running: RwSignal::new(None),
+            pace: RwSignal::new(0.0),
             notice: RwSignal::new(None),
             dump: RwSignal::new(String::new()),
             broken,
@@ -128,29 +133,44 @@ impl App {
     /// Opens the chosen known port, or asks for one when none is known.
     pub(crate) fn connect(self) {
         leptos::task::spawn_local(async move {
-            self.refresh_ports().await;
-            let known = self.ports.get_untracked();
-            match self.port.get_untracked() {
-                Some(chosen) => match serial::find(&known, chosen) {
-                    Some(index) => self.open(known[index]),
-                    None => self.notice.set(Some(
-                        "The adapter is not plugged in. Plug it in, or choose another port.".into(),
-                    )),
-                },
-                None => match known.first() {
-                    Some(port) => self.open(*port),
-                    None => self.add_port().await,
-                },
+            if let Some(port) = self.chosen_port().await {
+                self.open(port);
             }
         });
     }
 
+    /// The chosen port, the first known one, or the one that the user chooses now; where there is
+    /// none, the page says why.
+    async fn chosen_port(self) -> Option<PortId> {
+        self.refresh_ports().await;
+        let known = self.ports.get_untracked();
+        match (self.port.get_untracked(), known.first()) {
+            (Some(chosen), _) => {
+                let index = serial::find(&known, chosen);
+                if index.is_none() {
+                    self.notice.set(Some(
+                        "The adapter is not plugged in. Plug it in, or choose another port.".into(),
+                    ));
+                }
+                index.map(|index| known[index])
+            }
+            (None, Some(port)) => Some(*port),
+            (None, None) => self.ask_port().await,
+        }
+    }
+
     /// Asks for a port and opens it.
     pub(crate) async fn add_port(self) {
+        if let Some(port) = self.ask_port().await {
+            self.open(port);
+        }
+    }
+
+    async fn ask_port(self) -> Option<PortId> {
         match serial::ask().await {
             Ok(port) => {
                 self.refresh_ports().await;
-                self.open(port);
+                Some(port)
             }
             Err(error) => {
                 let (name, message) = encoderscope_web::browser::error_text(&error);
@@ -161,7 +181,39 @@ impl App {
                     }
                     _ => message,
                 }));
+                None
             }
+        }
+    }
+
+    /// Searches for the encoder: the built-in one where that is read, else on a port.
+    pub(crate) fn find(self) {
+        self.notice.set(None);
+        if self.source.get_untracked() == Source::Demo {
+            let profile = query(&self.readable());
+            return self.send(ToEngine::Find {
+                port: None,
+                profile,
+            });
+        }
+        leptos::task::spawn_local(async move {
+            if let Some(port) = self.chosen_port().await {
+                self.port.set(Some(port));
+                self.source.set(Source::Port);
+                self.send(ToEngine::Find {
+                    port: Some(port),
+                    profile: String::new(),
+                });
+            }
+        });
+    }
+
+    /// Reads the encoder that a search has found, or that the link has shown.
+    pub(crate) fn read_as(self, profile: Profile) {
+        self.change_profile(profile);
+        match (self.source.get_untracked(), self.port.get_untracked()) {
+            (Source::Port, Some(port)) => self.open(port),
+            (source, _) => self.demo(source),
         }
     }
 
@@ -208,6 +260,12 @@ impl App {
         if let Some(profile) = adapters::recall(port) {
             self.change_profile(profile);
         }
+    }
+
+    /// Asks so many times a second.
+    pub(crate) fn set_pace(self, rate: f64) {
+        self.pace.set(rate);
+        self.send(ToEngine::Pace(rate));
     }
 
     /// Stops reading.
@@ -369,7 +427,7 @@ fn location_hash() -> String {
     window().location().hash().unwrap_or_default()
 }
 
-fn summary(profile: &Profile) -> impl IntoView + use<> {
+pub(crate) fn summary(profile: &Profile) -> impl IntoView + use<> {
     let mut text = format!("{} bit", profile.angle_bits);
     if profile.turns_bits > 0 {
         text += &format!(" + {} turns", profile.turns_bits);
@@ -378,39 +436,4 @@ fn summary(profile: &Profile) -> impl IntoView + use<> {
         text += &format!(" · {} Mbaud", f64::from(profile.baud) / 1e6);
     }
     view! { <b>{profile.format.title()}</b> " " {text} }
-}
-
-#[component]
-fn ThemeSwitch() -> impl IntoView {
-    // The theme is set before the page is drawn, by the script that loads it.
-    let root = document().document_element();
-    let dark = root
-        .as_ref()
-        .and_then(|root| root.get_attribute("data-theme"));
-    let dark = RwSignal::new(dark.as_deref() == Some("dark"));
-    Effect::new(move || {
-        if let Some(root) = &root {
-            // Setting an attribute by a constant name cannot fail.
-            let _ = root.set_attribute("data-theme", if dark.get() { "dark" } else { "light" });
-        }
-    });
-    let switch = move |_| {
-        dark.update(|dark| *dark = !*dark);
-        if let Ok(Some(storage)) = window().local_storage() {
-            // A browser that keeps nothing starts with the system's theme next time.
-            let _ = storage.set_item(
-                "theme",
-                if dark.get_untracked() {
-                    "dark"
-                } else {
-                    "light"
-                },
-            );
-        }
-    };
-    view! {
-        <button class="theme" on:click=switch aria-label="Light or dark" title="Light or dark">
-            "◐"
-        </button>
-    }
 }

@@ -2,6 +2,8 @@
 
 use crate::{
     app::{App, Source},
+    devices::DevicesPanel,
+    finder::{FindButton, SearchPanel},
     link_panel::LinkPanel,
     live::{Angle, Status},
     log::Frames,
@@ -24,7 +26,7 @@ pub(crate) fn Console() -> impl IntoView {
             {move || (!preview()).then(|| view! { <LinkPanel /> })}
             <Angle />
             <Status />
-            {move || (!preview()).then(|| view! { <SettingPanel /> })}
+            {move || (!preview()).then(|| view! { <SearchPanel /> <DevicesPanel /> <SettingPanel /> })}
             <Frames />
         </div>
     }
@@ -83,6 +85,7 @@ fn Welcome() -> impl IntoView {
             <div class="doors">
                 <ConnectButton />
                 <DemoButton />
+                {serial::available().is_ok().then(|| view! { <FindButton /> })}
                 <a class="button" href="#/decode">"Paste a dump"</a>
             </div>
             {serial::available().err().map(|absent| view! {

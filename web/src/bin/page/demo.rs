@@ -1,12 +1,28 @@
-//! The built-in encoder's knobs.
+//! The built-in encoder's knobs: its shaft, what it reports, and what goes wrong on its line.
 
 use crate::app::App;
-use encoderscope_web::message::ToEngine;
+use encoderscope::{
+    bits,
+    format::{Format, STATUS},
+};
+use encoderscope_web::message::{Knobs, ToEngine};
 use leptos::prelude::*;
+
+#[component]
+pub(crate) fn DemoKnobs() -> impl IntoView {
+    let app = expect_context::<App>();
+    view! {
+        <DemoShaft />
+        <details class="knobs">
+            <summary>"Demo status and faults"</summary>
+            <Reports app=app />
+        </details>
+    }
+}
 
 /// Turns the shaft of the built-in encoder by hand.
 #[component]
-pub(crate) fn DemoShaft() -> impl IntoView {
+fn DemoShaft() -> impl IntoView {
     let app = expect_context::<App>();
     let speed = RwSignal::new(None::<f64>);
     let turn = move |value: f64| {
@@ -32,5 +48,91 @@ pub(crate) fn DemoShaft() -> impl IntoView {
             />
         </label>
         <button class="quiet" data-testid="demo-hold" on:click=move |_| turn(0.0)>"Hold the shaft"</button>
+    }
+}
+
+#[component]
+fn Reports(app: App) -> impl IntoView {
+    let knobs = RwSignal::new(Knobs::default());
+    let set = move |change: &dyn Fn(&mut Knobs)| {
+        knobs.update(|knobs| change(knobs));
+        app.send(ToEngine::Knobs(knobs.get_untracked()));
+    };
+    // A profile that changes makes another encoder, which is well.
+    Effect::new(move || {
+        app.profile.track();
+        knobs.set(Knobs::default());
+    });
+    let carries_status = move || !matches!(app.profile.get().format, Format::Asi1 | Format::Asi4);
+    let bit = move |place: u32| bits::low_byte(bits::placed(1, place));
+    let lamps = move || {
+        let lamps = STATUS.iter().map(move |status| {
+            let bit = bit(status.place);
+            view! {
+                <Check
+                    name=status.name
+                    on=Signal::derive(move || knobs.get().status & bit > 0)
+                    change=move |on| set(&|knobs| knobs.status = if on { knobs.status | bit } else { knobs.status & !bit })
+                />
+            }
+        });
+        lamps.collect_view()
+    };
+    view! {
+        {move || carries_status().then(lamps)}
+        <Check name="error" on=Signal::derive(move || knobs.get().error) change=move |on| set(&|knobs| knobs.error = on) />
+        <Check name="warning" on=Signal::derive(move || knobs.get().warning) change=move |on| set(&|knobs| knobs.warning = on) />
+        <Check name="silent" on=Signal::derive(move || knobs.get().silent) change=move |on| set(&|knobs| knobs.silent = on) />
+        <Check name="echo" on=Signal::derive(move || knobs.get().echo) change=move |on| set(&|knobs| knobs.echo = on) />
+        <Share
+            name="noise"
+            title="Bytes with a wrong bit"
+            value=Signal::derive(move || knobs.get().flip)
+            change=move |share| set(&|knobs| knobs.flip = share)
+        />
+        <Share
+            name="lost"
+            title="Replies lost"
+            value=Signal::derive(move || knobs.get().lose)
+            change=move |share| set(&|knobs| knobs.lose = share)
+        />
+    }
+}
+
+#[component]
+fn Check(
+    name: &'static str,
+    on: Signal<bool>,
+    change: impl Fn(bool) + Copy + 'static,
+) -> impl IntoView {
+    view! {
+        <label class="check">
+            <input type="checkbox" name=format!("demo-{name}") prop:checked=on on:change:target=move |event| change(event.target().checked()) />
+            {name}
+        </label>
+    }
+}
+
+/// A share of 1000, shown in per cent.
+#[component]
+fn Share(
+    name: &'static str,
+    title: &'static str,
+    value: Signal<u32>,
+    change: impl Fn(u32) + Copy + 'static,
+) -> impl IntoView {
+    view! {
+        <label class="shaft">
+            <span>{title} " " <small>{move || format!("{:.1} %", f64::from(value.get()) / 10.0)}</small></span>
+            <input
+                type="range"
+                min="0"
+                max="200"
+                step="5"
+                name=format!("demo-{name}")
+                prop:value=move || value.get().to_string()
+                on:input:target=move |event| change(event.target().value().parse().unwrap_or(0))
+            />
+        </label>
     }
 }

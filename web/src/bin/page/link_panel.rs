@@ -4,12 +4,14 @@ use crate::{
     adapters,
     app::{App, Source},
     console::{ConnectButton, DemoButton, absent_text},
-    demo::DemoShaft,
+    demo::DemoKnobs,
+    doctor::LinkState,
+    finder::FindButton,
     profile_editor::{Offer, ProfileEditor},
 };
-use encoderscope::explain::grouped;
+use encoderscope::{explain::grouped, format::Link as Way};
 use encoderscope_web::{
-    message::{Counts, Link, Snapshot},
+    message::{Counts, Snapshot},
     serial,
 };
 use leptos::prelude::*;
@@ -17,8 +19,8 @@ use leptos::prelude::*;
 #[component]
 pub(crate) fn LinkPanel() -> impl IntoView {
     let app = expect_context::<App>();
-    let link = Memo::new(move |_| app.snapshot.get().link);
-    let open = Memo::new(move |_| link.get().is_open());
+    let open = Memo::new(move |_| app.snapshot.get().link.is_open());
+    let polled = move || app.profile.get().format.spec().link == Way::Polled;
     let title = move || match app.source.get() {
         Source::Port => {
             app.ports.track();
@@ -30,7 +32,7 @@ pub(crate) fn LinkPanel() -> impl IntoView {
         <section class="panel link">
             <h2>"Link"</h2>
             <p class="name">{title}</p>
-            <LinkState link=link />
+            <LinkState />
             {move || app.notice.get().map(|notice| view! { <p class="fault" role="alert">{notice}</p> })}
             {serial::available().err().map(|absent| view! { <p class="notice">{absent_text(absent)}</p> })}
             <div class="doors">
@@ -46,11 +48,13 @@ pub(crate) fn LinkPanel() -> impl IntoView {
                 {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <ConnectButton /> })}
             </div>
             <PortChooser />
-            {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <DemoShaft /> })}
+            <div class="doors"><FindButton /></div>
+            {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <DemoKnobs /> })}
             <details>
                 <summary>"Encoder settings"</summary>
                 <ProfileEditor offer=Offer::Serial />
             </details>
+            {move || polled().then(|| view! { <PaceChooser /> })}
             <Counters />
         </section>
     }
@@ -108,74 +112,6 @@ fn PortChooser() -> impl IntoView {
     }
 }
 
-/// What the state of the link is called, and what to do about it.
-fn link_text(link: &Link) -> (&'static str, String) {
-    match link {
-        Link::Closed => ("Not connected", String::new()),
-        Link::Opening => ("Opening the port", String::new()),
-        Link::Waiting => ("Port open", "no answer yet".into()),
-        Link::Reading => ("Reading", String::new()),
-        Link::Silent { echo: false } => (
-            "No answer",
-            "Nothing comes back. Check the supply, swap A and B, check the baud rate and the order code.".into(),
-        ),
-        Link::Silent { echo: true } => (
-            "Only the echo of the requests",
-            "The adapter works, the encoder does not answer. Check its supply, swap A and B.".into(),
-        ),
-        Link::Failing => (
-            "Answers, but no check holds",
-            "Check the baud rate and the terminator, and that format and bits are those of the order code.".into(),
-        ),
-        Link::Unasked => (
-            "The encoder talks without being asked",
-            "It is a free-running model: choose PERIOD, ASI1 or ASI4 in the encoder settings.".into(),
-        ),
-        Link::Unfit { reason } => ("This profile has no serial line", format!("{reason}.")),
-        Link::Refused { reason } => (
-            "The port could not be opened",
-            reason.clone(),
-        ),
-        Link::Lost => (
-            "The port is gone",
-            "The adapter was unplugged, or the permission for it withdrawn. Plug it in and reconnect.".into(),
-        ),
-    }
-}
-
-#[component]
-fn LinkState(link: Memo<Link>) -> impl IntoView {
-    let app = expect_context::<App>();
-    let tone = move || match link.get() {
-        Link::Reading => "good",
-        Link::Closed | Link::Opening | Link::Waiting => "idle",
-        _ => "bad",
-    };
-    let evidence = move || {
-        let snapshot = app.snapshot.get();
-        if link.get() != Link::Reading {
-            return String::new();
-        }
-        let latency = snapshot.latency.map(|latency| format!("{latency:.2} ms"));
-        let p99 = snapshot
-            .latency_p99
-            .map(|latency| format!("p99 {latency:.2} ms"));
-        let echo = (snapshot.echo == Some(true)).then(|| "the adapter echoes requests".into());
-        [latency, p99, echo]
-            .into_iter()
-            .flatten()
-            .collect::<Vec<_>>()
-            .join(" · ")
-    };
-    view! {
-        <div class="state" data-testid="link-state" data-value=move || link.get().name() role="status">
-            <p class=move || format!("lamp {}", tone())>{move || link_text(&link.get()).0}</p>
-            <p class="hint">{move || link_text(&link.get()).1}</p>
-        </div>
-        <p class="hint evidence">{evidence}</p>
-    }
-}
-
 /// A number that a test can read.
 #[component]
 fn Count(
@@ -199,14 +135,54 @@ fn Counters() -> impl IntoView {
         <dl class="counts">
             <Count label="good frames" testid="frames-ok" read=|snapshot| snapshot.counts.good />
             <Count label="bad frames" testid="frames-bad" read=|snapshot| snapshot.counts.bad />
+            <ErrorRate />
             <Count label="frames a second" testid="rate" read=|snapshot| snapshot.rate />
             <Count label="no answer" testid="silent" read=|snapshot| snapshot.counts.silent />
             <Count label="bytes in" testid="bytes-in" read=|snapshot| snapshot.counts.bytes />
             <Count label="in frames" testid="bytes-framed" read=|snapshot| snapshot.counts.framed />
             <Count label="skipped" testid="bytes-skipped" read=|snapshot| snapshot.counts.skipped />
-            <Counted label="in sequences" testid="bytes-set" read=|counts| counts.set />
+            <Counted label="aside of reading" testid="bytes-set" read=|counts| counts.set />
             <Counted label="line errors" testid="line-errors" read=|counts| counts.line />
         </dl>
+    }
+}
+
+/// How often the encoder is asked.
+#[component]
+fn PaceChooser() -> impl IntoView {
+    let app = expect_context::<App>();
+    let rates = [
+        ("0", "as often as it answers"),
+        ("1000", "1 000 times a second"),
+        ("100", "100 times a second"),
+        ("10", "10 times a second"),
+        ("1", "once a second"),
+    ];
+    view! {
+        <label>
+            "Asked"
+            <select
+                name="pace"
+                on:change:target=move |event| app.set_pace(event.target().value().parse().unwrap_or(0.0))
+            >
+                {rates.map(|(rate, text)| view! {
+                    <option value=rate selected=move || app.pace.get().to_string() == rate>{text}</option>
+                }).collect_view()}
+            </select>
+        </label>
+    }
+}
+
+/// The share of the last replies that were bad or missing.
+#[component]
+fn ErrorRate() -> impl IntoView {
+    let app = expect_context::<App>();
+    let rate = Memo::new(move |_| app.snapshot.get().error_rate);
+    view! {
+        <dt>"errors, last 5 s"</dt>
+        <dd data-testid="error-rate" data-value=move || rate.get().map(|rate| rate.to_string())>
+            {move || rate.get().map_or_else(|| "–".to_owned(), |rate| format!("{:.1} %", rate * 100.0))}
+        </dd>
     }
 }
 

@@ -4,7 +4,10 @@ use crate::{
     app::{App, Source},
     dial::{AngleDigits, Dial},
 };
-use encoderscope::explain::{grouped, grouped_signed};
+use encoderscope::{
+    explain::{grouped, grouped_signed},
+    format::blinks,
+};
 use encoderscope_web::message::{Lamp, Link, Shown};
 use leptos::prelude::*;
 
@@ -59,12 +62,40 @@ pub(crate) fn Angle() -> impl IntoView {
                         |shown| shown.turns.map(|turns| turns.mul_add(360.0, shown.degrees)),
                         |degrees| format!("{degrees:.3}°"),
                     )}
+                    {row(
+                        "arc-seconds",
+                        "arc-seconds",
+                        |shown| Some(shown.degrees * 3600.0),
+                        |seconds| format!("{}.{}″", grouped(seconds as u64), (seconds * 10.0) as u64 % 10),
+                    )}
                     {row("speed", "speed", |shown| shown.speed, |speed| format!("{speed:.1} rev/s"))}
+                    <Turning />
                     {row("temperature", "temperature", |shown| shown.temperature, |temperature| format!("{temperature:.1} °C"))}
                 </dl>
                 {move || stale().then(|| view! { <p class="hint">"last reading before the link stopped"</p> })}
             </div>
         </section>
+    }
+}
+
+/// The speed from the angles, where the frames carry none.
+#[component]
+fn Turning() -> impl IntoView {
+    let app = expect_context::<App>();
+    let carried = Memo::new(move |_| {
+        let reading = app.snapshot.get().reading;
+        reading.is_none_or(|shown| shown.speed.is_some())
+    });
+    let turning = Memo::new(move |_| app.snapshot.get().turning);
+    move || {
+        (!carried.get()).then(|| {
+            view! {
+                <dt>"speed, from the angle"</dt>
+                <dd data-testid="turning" data-value=move || turning.get().map(|speed| speed.to_string())>
+                    {move || turning.get().map_or_else(|| "–".to_owned(), |speed| format!("{speed:.2} rev/s"))}
+                </dd>
+            }
+        })
     }
 }
 
@@ -92,8 +123,10 @@ pub(crate) fn Status() -> impl IntoView {
             <ul>
                 {move || shown.get().map(|shown| {
                     let (tone, text) = led(&shown);
+                    let blinking = lamps.get().iter().any(|lamp| lamp.now && blinks(&lamp.name));
+                    let text = if blinking { format!("{text}, blinking") } else { text.into() };
                     view! {
-                        <li class=format!("lamp {tone}")>
+                        <li class=format!("lamp {tone}") class:blink=blinking data-testid="led">
                             <span>"Encoder LED"</span>
                             <span class="when">{text}</span>
                         </li>
@@ -120,7 +153,7 @@ fn LampRow(lamp: Lamp) -> impl IntoView {
         <li class=if lamp.now { "lamp warn" } else { "lamp off" } data-now=lamp.now.to_string()>
             <span>
                 {lamp.name}
-                {lamp.now.then(|| view! { <small>{lamp.doc}</small> })}
+                {(lamp.seen > 0.0).then(|| view! { <small>{lamp.doc}</small> })}
             </span>
             <span class="when">{when}</span>
         </li>

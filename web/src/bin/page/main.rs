@@ -11,13 +11,17 @@ mod connection;
 mod console;
 mod decode;
 mod demo;
+mod devices;
 mod dial;
+mod doctor;
+mod finder;
 mod frame_view;
 mod link_panel;
 mod live;
 mod log;
 mod profile_editor;
 mod setting;
+mod theme;
 
 use wasm_bindgen::prelude::*;
 

@@ -185,7 +185,10 @@ fn Running(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoVi
     });
     match outcome {
         None => view! {
-            <p><b>{title(setting)}</b> " — nothing else is sent meanwhile."</p>
+            <p>
+                <b>{title(setting)}</b>
+                {if total == 0 { " — looking for other devices on the wire first." } else { " — nothing else is sent meanwhile." }}
+            </p>
             <progress max=total value=done aria-label="commands done"></progress>
             {counted}
             <div class="doors">

@@ -1,0 +1,108 @@
+//! The devices of a BUS: a scan of all addresses, and a tile each.
+
+use crate::app::App;
+use encoderscope::{explain::grouped, format::Format};
+use encoderscope_web::message::{Device, Link, ToEngine};
+use leptos::prelude::*;
+
+#[component]
+pub(crate) fn DevicesPanel() -> impl IntoView {
+    let app = expect_context::<App>();
+    let is_bus = Memo::new(move |_| app.profile.get().format == Format::Bus);
+    let open = Memo::new(move |_| {
+        let link = app.snapshot.get().link;
+        link.is_open() && !matches!(link, Link::Opening | Link::Searching)
+    });
+    let scan = Memo::new(move |_| app.snapshot.get().scan);
+    let addresses = Memo::new(move |_| {
+        let devices = app.snapshot.get().devices;
+        devices
+            .iter()
+            .map(|device| device.address)
+            .collect::<Vec<_>>()
+    });
+    // Where the address of the settings does not answer, the first that does is shown.
+    Effect::new(move || {
+        let own = app.profile.get_untracked().address;
+        let addresses = addresses.get();
+        if let Some(first) = addresses.first()
+            && !addresses.iter().any(|address| u32::from(*address) == own)
+        {
+            app.adopt_address(*first);
+        }
+    });
+    move || {
+        is_bus.get().then(|| {
+            view! {
+                <section class="panel devices">
+                    <h2>"Devices on the bus"</h2>
+                    <div class="doors">
+                        <button data-testid="scan" disabled=move || !open.get() on:click=move |_| app.send(ToEngine::Scan)>
+                            "Scan 32 addresses"
+                        </button>
+                        <span class="hint" data-testid="scan-result">{move || scan.get()}</span>
+                    </div>
+                    <div class="tiles">
+                        {move || addresses.get().into_iter().map(|address| view! { <Tile address=address /> }).collect_view()}
+                    </div>
+                </section>
+            }
+        })
+    }
+}
+
+#[component]
+fn Tile(address: u8) -> impl IntoView {
+    let app = expect_context::<App>();
+    let device = Memo::new(move |_| {
+        let devices = app.snapshot.get().devices;
+        devices.into_iter().find(|device| device.address == address)
+    });
+    let own = move || app.profile.get().address == u32::from(address);
+    let text = move || {
+        let shown = device.get().and_then(|device: Device| device.reading);
+        shown.map_or_else(
+            || "–".to_owned(),
+            |shown| match shown.turns {
+                Some(turns) => format!("{turns} turns {:.3}°", shown.degrees),
+                None => format!("{:.3}°", shown.degrees),
+            },
+        )
+    };
+    let state = move || {
+        device.get().map_or_else(String::new, |device| {
+            let frames = format!(
+                "{} good, {} bad",
+                grouped(device.good as u64),
+                grouped(device.bad as u64)
+            );
+            match device.fresh {
+                true => frames,
+                false => format!("no answer · {frames}"),
+            }
+        })
+    };
+    let angle = move || {
+        let shown = device.get().and_then(|device| device.reading);
+        shown.map(|shown| shown.angle.to_string())
+    };
+    view! {
+        <button
+            class="tile"
+            class:chosen=own
+            aria-pressed=move || own().to_string()
+            data-testid="device"
+            data-address=address.to_string()
+            data-value=angle
+            data-fresh=move || device.get().is_some_and(|device| device.fresh).to_string()
+            on:click=move |_| {
+                app.send(ToEngine::Watch(address));
+                app.adopt_address(address);
+            }
+        >
+            <span class="address">"address " {address.to_string()}</span>
+            <b>{text}</b>
+            <small>{state}</small>
+        </button>
+    }
+}

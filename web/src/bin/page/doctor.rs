@@ -1,0 +1,312 @@
+//! The connection doctor: a ladder of states, each with its evidence, and what to try next.
+
+use crate::app::{App, Source, summary};
+use encoderscope::{
+    adapter::Made,
+    decode::Decoder,
+    explain::grouped,
+    format::{Format, Link as Way},
+    profile::Profile,
+};
+use encoderscope_web::{
+    link,
+    message::{Link, Snapshot},
+    serial,
+};
+use leptos::prelude::*;
+
+/// How a rung of the ladder stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tone {
+    Good,
+    Warn,
+    Bad,
+    /// Not reached.
+    Idle,
+}
+
+impl Tone {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Warn => "warn",
+            Self::Bad => "bad",
+            Self::Idle => "idle",
+        }
+    }
+
+    const fn sign(self) -> &'static str {
+        match self {
+            Self::Good => "✓",
+            Self::Warn => "!",
+            Self::Bad => "✗",
+            Self::Idle => "·",
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Rung {
+    name: &'static str,
+    title: &'static str,
+    tone: Tone,
+    evidence: String,
+}
+
+/// How many rungs a state has climbed, and whether it fails on the next one.
+const fn height(link: &Link) -> (usize, bool) {
+    match link {
+        Link::Closed | Link::Opening => (0, false),
+        Link::Unfit { .. } | Link::Refused { .. } | Link::Lost => (0, true),
+        Link::Waiting | Link::Searching => (1, false),
+        Link::Silent { .. } => (1, true),
+        Link::Garbage => (2, true),
+        Link::Failing => (3, true),
+        Link::OtherProfile { .. } | Link::Unasked { .. } => (4, true),
+        Link::Reading => (5, false),
+    }
+}
+
+fn ladder(app: App) -> Vec<Rung> {
+    let snapshot = app.snapshot.get();
+    let profile = app.profile.get();
+    let (height, fails) = height(&snapshot.link);
+    let total = snapshot.counts.good + snapshot.counts.bad;
+    let percent = snapshot.error_rate.map_or(0.0, |rate| rate * 100.0);
+    let baud = match app.source.get() {
+        Source::Port => baud_text(app, &profile),
+        _ => (Tone::Good, "the built-in encoder".into()),
+    };
+    let talks = profile.format.spec().link == Way::Stream;
+    let rungs = [
+        ("port", "Port open", baud.1),
+        (
+            "answer",
+            if talks {
+                "Encoder talks"
+            } else {
+                "Encoder answers"
+            },
+            answer_text(&snapshot),
+        ),
+        ("frames", "Frames stand out", rate_text(&snapshot, &profile)),
+        (
+            "checks",
+            "Checks hold",
+            match total > 0.0 {
+                true => format!(
+                    "{} of {}, {percent:.1} % errors",
+                    grouped(snapshot.counts.good as u64),
+                    grouped(total as u64)
+                ),
+                false => String::new(),
+            },
+        ),
+        (
+            "reading",
+            "Reading",
+            match height {
+                5 => format!("{} frames/s", grouped(snapshot.rate as u64)),
+                _ => String::new(),
+            },
+        ),
+    ];
+    let rungs = rungs.into_iter().enumerate();
+    rungs
+        .map(|(index, (name, title, evidence))| {
+            let tone = match index {
+                _ if index == height && fails => Tone::Bad,
+                0 if height > 0 => baud.0,
+                3 if height > 3 && percent > 1.0 => Tone::Warn,
+                _ if index < height => Tone::Good,
+                _ => Tone::Idle,
+            };
+            let evidence = if index <= height {
+                evidence
+            } else {
+                String::new()
+            };
+            Rung {
+                name,
+                title,
+                tone,
+                evidence,
+            }
+        })
+        .collect()
+}
+
+/// A baud rate in few digits.
+fn short(rate: f64) -> String {
+    match rate {
+        1e6.. => format!("{:.3} M", rate / 1e6),
+        _ => grouped(rate.round() as u64),
+    }
+}
+
+/// What the adapter makes of the baud rate.
+fn baud_text(app: App, profile: &Profile) -> (Tone, String) {
+    let asked = grouped(profile.baud.into());
+    let made = app.port.get().map(|port| serial::made(port, profile.baud));
+    match made {
+        Some(Made::Rate(rate)) if (rate - f64::from(profile.baud)).abs() >= 1.0 => {
+            (Tone::Good, format!("{asked} asked, {} made", short(rate)))
+        }
+        Some(Made::Not(rate)) => (
+            Tone::Warn,
+            format!(
+                "{asked} asked, which this chip does not make; its driver takes about {}",
+                short(rate)
+            ),
+        ),
+        Some(Made::Rate(_) | Made::Unknown) | None => (Tone::Good, format!("{asked} baud")),
+    }
+}
+
+fn answer_text(snapshot: &Snapshot) -> String {
+    let latency = snapshot.latency.map(|latency| format!("{latency:.2} ms"));
+    let p99 = snapshot
+        .latency_p99
+        .map(|latency| format!("p99 {latency:.2} ms"));
+    let echo = (snapshot.echo == Some(true)).then(|| "the adapter echoes requests".into());
+    // An adapter that holds bytes back cuts replies in two.
+    let gap = snapshot
+        .gap
+        .filter(|gap| *gap >= 1.0 && snapshot.latency.is_some())
+        .map(|gap| format!("pauses of {gap:.1} ms within replies"));
+    let parts = [latency, p99, echo, gap];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
+}
+
+/// Bytes a second, against what the rate can carry and the encoder should send.
+fn rate_text(snapshot: &Snapshot, profile: &Profile) -> String {
+    let seen = snapshot.byte_rate;
+    let most = f64::from(profile.baud) / 10.0;
+    let text = format!("{} bytes/s", grouped(seen as u64));
+    if seen > most * 1.05 {
+        return format!(
+            "{text}, more than {} baud carry: the adapter runs faster than asked",
+            grouped(profile.baud.into())
+        );
+    }
+    let due = due_bytes(profile);
+    match due {
+        Some(due) if seen > 0.0 && (seen < due * 0.9 || seen > due * 1.1) => {
+            let why = match snapshot.link {
+                Link::Reading => "bytes are lost on the way",
+                _ => "one side runs at another baud rate",
+            };
+            format!("{text}, {} are due: {why}", grouped(due as u64))
+        }
+        _ => text,
+    }
+}
+
+/// Bytes a second that a stream has by its manual; lines of digits have no fixed length.
+fn due_bytes(profile: &Profile) -> Option<f64> {
+    let interval = profile.format.interval()?;
+    let decoder = Decoder::new(*profile).ok()?;
+    let bytes = decoder.main_layout().len / 8;
+    (profile.format != Format::Asi4).then(|| bytes as f64 * 1e6 / interval as f64)
+}
+
+/// What the state of the link is called, and what to try next.
+fn link_text(link: &Link, app: App) -> (&'static str, String) {
+    match link {
+        Link::Closed => ("Not connected", String::new()),
+        Link::Opening => ("Opening the port", String::new()),
+        Link::Waiting => ("Port open", "No answer yet.".into()),
+        Link::Searching => ("Searching", "Only requests that read are sent.".into()),
+        Link::Reading => ("Reading", slow_text(&app.snapshot.get())),
+        Link::Silent { echo: false } => (
+            "No answer",
+            "Nothing comes back. Check the supply, swap A and B, check the baud rate and the \
+             order code, or let the page find the encoder."
+                .into(),
+        ),
+        Link::Silent { echo: true } => (
+            "Only the echo of the requests",
+            "The adapter works, the encoder does not answer. Check its supply, swap A and B."
+                .into(),
+        ),
+        Link::Garbage => (
+            "Bytes, but no frames",
+            "Check the baud rate and the order code, swap A and B, add the terminator; or let the \
+             page find the encoder."
+                .into(),
+        ),
+        Link::Failing => (
+            "Frames, but no check holds",
+            "The line is disturbed: check terminator, shield and supply, and that the adapter \
+             makes this baud rate."
+                .into(),
+        ),
+        Link::OtherProfile { .. } => (
+            "Another encoder than in the settings",
+            "The frames are good with the profile below; the order code says which is right."
+                .into(),
+        ),
+        Link::Unasked { .. } => (
+            "The encoder talks without being asked",
+            "It is a free-running model: choose PERIOD, ASI1 or ASI4 in the encoder settings."
+                .into(),
+        ),
+        Link::Unfit { reason } => ("This profile has no serial line", format!("{reason}.")),
+        Link::Refused { reason } => ("The port could not be opened", reason.clone()),
+        Link::Lost => (
+            "The port is gone",
+            "The adapter was unplugged, or the permission for it withdrawn. Plug it in and \
+             reconnect."
+                .into(),
+        ),
+    }
+}
+
+/// FTDI adapters hold short replies for 16 ms unless told otherwise.
+fn slow_text(snapshot: &Snapshot) -> String {
+    let held = snapshot
+        .latency
+        .is_some_and(|latency| (14.0..20.0).contains(&latency));
+    match held {
+        true => "Replies are held for 16 ms: set the adapter's latency timer to 1 ms.".into(),
+        false => String::new(),
+    }
+}
+
+/// The ladder, and the state in words.
+#[component]
+pub(crate) fn LinkState() -> impl IntoView {
+    let app = expect_context::<App>();
+    let link = Memo::new(move |_| app.snapshot.get().link);
+    let rungs = Memo::new(move |_| ladder(app));
+    let failed = Memo::new(move |_| {
+        let (_, fails) = height(&link.get());
+        fails
+    });
+    let hint = Memo::new(move |_| link_text(&link.get(), app).1);
+    let other = move || match link.get() {
+        Link::OtherProfile { profile } => Some(profile),
+        Link::Unasked { profile } => profile,
+        _ => None,
+    };
+    view! {
+        <div class="state" data-testid="link-state" data-value=move || link.get().name() role="status">
+            <p class=move || if failed.get() { "lamp bad" } else { "named" }>{move || link_text(&link.get(), app).0}</p>
+            <p class="hint">{hint}</p>
+        </div>
+        {move || other().and_then(|text| link::profile(&text).ok()).map(|profile| view! {
+            <p class="suggestion" data-testid="suggestion" data-value=link::query(&profile)>
+                <span>{summary(&profile)}</span>
+                <button on:click=move |_| app.read_as(profile)>"Read it so"</button>
+            </p>
+        })}
+        <ol class="ladder" aria-label="Link">
+            {move || rungs.get().into_iter().map(|rung| view! {
+                <li class=format!("rung {}", rung.tone.name()) data-testid="rung" data-name=rung.name data-value=rung.tone.name()>
+                    <span class="sign" aria-hidden="true">{rung.tone.sign()}</span>
+                    <span><b>{rung.title}</b> " " <small>{rung.evidence}</small></span>
+                </li>
+            }).collect_view()}
+        </ol>
+    }
+}
