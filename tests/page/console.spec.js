@@ -205,7 +205,7 @@ test('replies that become too short are not shown as reading', async ({ page }) 
   await page.goto('/#/console?format=t485');
   await at(page, 'connect').click();
   await expectLink(page, 'reading');
-  await expectLink(page, 'failing');
+  await expectLink(page, 'garbage');
   await expect(page.getByText('last reading before the link stopped')).toBeVisible();
 });
 

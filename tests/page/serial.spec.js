@@ -174,16 +174,20 @@ test('silence, an echo alone and a wrong profile have names and remedies @serial
   await expectLink(page, 'reading');
   // A T485 encoder answers an unknown operation, but not with what RS485 expects.
   await page.goto('/#/console?format=rs485&turns-bits=0&command=1');
-  await expectLink(page, 'failing');
+  await expectLink(page, 'garbage');
   await expect(at(page, 'link-state')).toContainText('order code');
 });
 
 test('a wrong width is not read as a wrong angle @serial', async ({ page }) => {
   await plug('--format', 't485', '--angle-bits', '23', 'still=0.9');
   await connect(page, 'format=t485&angle-bits=17');
-  await expectLink(page, 'failing');
+  await expectLink(page, 'other-profile');
   await expect(at(page, 'angle')).not.toHaveAttribute('data-value', /./);
   expect(await number(page, 'frames-ok')).toBe(0);
+  await expect(at(page, 'suggestion')).toHaveAttribute('data-value', /angle-bits=23/);
+  await at(page, 'suggestion').getByRole('button').click();
+  await expectLink(page, 'reading');
+  await expect(page).toHaveURL(/angle-bits=23/);
 });
 
 test('a port that cannot be opened says so, and the demo is one click away @serial', async ({ page }) => {

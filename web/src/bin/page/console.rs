@@ -22,12 +22,20 @@ pub(crate) fn Console() -> impl IntoView {
     let preview = move || app.source.get() == Source::Preview;
     view! {
         <div class="console">
-            {move || preview().then(|| view! { <Welcome /> })}
-            {move || (!preview()).then(|| view! { <LinkPanel /> })}
-            <Angle />
-            <Status />
-            {move || (!preview()).then(|| view! { <SearchPanel /> <DevicesPanel /> <SettingPanel /> })}
-            <Frames />
+            {move || match preview() {
+                true => view! { <Welcome /> }.into_any(),
+                false => view! { <LinkPanel /> }.into_any(),
+            }}
+            <div class="stage">
+                {move || (!preview()).then(|| view! { <SearchPanel /> })}
+                <Angle />
+                <div class="side">
+                    <Status />
+                    {move || (!preview()).then(|| view! { <SettingPanel /> })}
+                </div>
+                {move || (!preview()).then(|| view! { <DevicesPanel /> })}
+                <Frames />
+            </div>
         </div>
     }
 }

@@ -47,7 +47,7 @@ fn DemoShaft() -> impl IntoView {
                 on:input:target=move |event| turn(event.target().value().parse().unwrap_or(0.0))
             />
         </label>
-        <button class="quiet" data-testid="demo-hold" on:click=move |_| turn(0.0)>"Hold the shaft"</button>
+        <button data-testid="demo-hold" on:click=move |_| turn(0.0)>"Hold the shaft"</button>
     }
 }
 

@@ -292,7 +292,7 @@ pub(crate) fn LinkState() -> impl IntoView {
     view! {
         <div class="state" data-testid="link-state" data-value=move || link.get().name() role="status">
             <p class=move || if failed.get() { "lamp bad" } else { "named" }>{move || link_text(&link.get(), app).0}</p>
-            <p class="hint">{hint}</p>
+            {move || Some(hint.get()).filter(|hint| !hint.is_empty()).map(|hint| view! { <p class="hint">{hint}</p> })}
         </div>
         {move || other().and_then(|text| link::profile(&text).ok()).map(|profile| view! {
             <p class="suggestion" data-testid="suggestion" data-value=link::query(&profile)>
