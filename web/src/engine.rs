@@ -1,10 +1,11 @@
 //! The engine: drives a session over a port or against the built-in encoder, and keeps what
 //! the page shows. It runs in a dedicated worker, or on the page where it must.
 
+mod ending;
 mod run;
 
 use crate::{
-    browser::{Timer, error_text, now, pause},
+    browser::{Timer, now, pause},
     link,
     message::{FromEngine, Link, PortId, STILL, Setting, ToEngine},
     serial::{Port, Read, Reader},
@@ -16,9 +17,9 @@ use encoderscope::{
     sequence::Runner,
     session::{Micros, Session},
 };
+use ending::{refused, shut};
 use run::{Run, Wire};
 use std::{cell::RefCell, rc::Rc};
-use wasm_bindgen::JsValue;
 
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
@@ -106,6 +107,17 @@ impl Engine {
             ToEngine::Set(setting) => state.begin(setting),
             ToEngine::StopSetting => state.stop(),
             ToEngine::ForgetSetting => state.tally.forget_progress(),
+            ToEngine::ReadMemory(address) => {
+                let State { run, tally, .. } = &mut *state;
+                if let Some(run) = run {
+                    run.read_memory(address, tally);
+                }
+            }
+            ToEngine::Supply(supply) => {
+                if let Some(run) = &mut state.run {
+                    run.supply(supply, now());
+                }
+            }
             ToEngine::Turn(speed) => state.turn(speed),
             ToEngine::Open { .. } | ToEngine::Demo { .. } | ToEngine::Close => {
                 state.asked = Some(message);
@@ -341,37 +353,6 @@ impl Engine {
         self.set_link(Link::Lost);
         shut(wire).await;
         self.work().await;
-    }
-}
-
-fn refused(error: &JsValue) -> Link {
-    let (name, message) = error_text(error);
-    let reason = match name.as_str() {
-        "InvalidStateError" => {
-            "This page still holds it: pull the adapter out and plug it in again.".into()
-        }
-        "SecurityError" => {
-            "The browser blocks serial ports here: see the site's settings, or ask who manages \
-             this computer."
-                .into()
-        }
-        "NetworkError" => format!(
-            "{message} Close other tabs and other programs that use it; on Linux your user must \
-             be in the group dialout."
-        ),
-        _ => message,
-    };
-    Link::Refused { reason }
-}
-
-/// Closes a port that was let go.
-async fn shut(wire: Option<Wire>) {
-    if let Some(Wire::Port { port, reader }) = wire {
-        if let Some(reader) = reader {
-            reader.cancel().await;
-            reader.release();
-        }
-        port.close().await;
     }
 }
 

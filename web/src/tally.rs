@@ -1,6 +1,6 @@
 //! What the engine keeps of a link: counts, rates, the last reading and the last frames.
 
-use crate::message::{Counts, Entry, Lamp, Outcome, Progress, Setting, Shown, Snapshot};
+use crate::message::{Cell, Counts, Entry, Lamp, Outcome, Progress, Setting, Shown, Snapshot};
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
@@ -43,6 +43,7 @@ pub struct Tally {
     /// Parts of a turn within the last second.
     parts: VecDeque<(Micros, f64)>,
     progress: Option<Progress>,
+    memory: Option<Cell>,
 }
 
 impl std::fmt::Debug for Tally {
@@ -70,6 +71,7 @@ impl Tally {
             log: VecDeque::new(),
             parts: VecDeque::new(),
             progress: None,
+            memory: None,
         }
     }
 
@@ -119,9 +121,40 @@ impl Tally {
             total: total as u32,
             count: None,
             before,
+            held: self.held(setting),
             outcome: None,
         });
         self.changed = true;
+    }
+
+    /// A cell of the EEPROM has been asked for.
+    pub const fn ask_memory(&mut self, address: u8) {
+        self.memory = Some(Cell {
+            address,
+            data: None,
+        });
+        self.changed = true;
+    }
+
+    /// What the cell that a setting writes held when it was read last.
+    fn held(&self, setting: Setting) -> Option<u8> {
+        match (setting, self.memory) {
+            (Setting::Memory { address, .. }, Some(cell)) if cell.address == address => cell.data,
+            _ => None,
+        }
+    }
+
+    /// What the cell that was to be written holds now.
+    fn settle_memory(&mut self, holds: Holds) {
+        let setting = self.progress.as_ref().map(|progress| progress.setting);
+        if let Some(Setting::Memory { address, data }) = setting {
+            let data = match holds {
+                Holds::New => Some(data),
+                Holds::Old => self.held(Setting::Memory { address, data }),
+                Holds::Unknown => None,
+            };
+            self.memory = Some(Cell { address, data });
+        }
     }
 
     /// A sequence could not begin.
@@ -148,6 +181,7 @@ impl Tally {
                 }
             }
             Event::Ended { stop, holds, .. } => {
+                self.settle_memory(*holds);
                 let changed = match holds {
                     Holds::New => Some(true),
                     Holds::Old => Some(false),
@@ -235,7 +269,13 @@ impl Tally {
             None => Some("no frame of this format".into()),
         };
         let good = text.is_none();
-        if good {
+        let cell = frame.as_ref().map(|frame| frame.values().memory);
+        if let (true, Some((Some(address), data))) = (good, cell) {
+            // It says nothing about the shaft.
+            self.memory = Some(Cell { address, data });
+            self.counts.good += 1.0;
+            self.good_times.push_back(now);
+        } else if good {
             if let Some(frame) = &frame {
                 let named = frame.layout.fields().flat_map(|field| {
                     let raw = frame.layout.read(field, frame.bits);
@@ -322,6 +362,7 @@ impl Tally {
             },
             moved: self.moved(now),
             progress: self.progress.clone(),
+            memory: self.memory,
             ..Snapshot::default()
         };
         if let Some(decoder) = &self.decoder {
@@ -371,6 +412,7 @@ fn shown(frame: &Frame<'_>) -> Option<Shown> {
         status: reading.status,
         speed: scaled(values.speed),
         temperature: scaled(values.temperature),
+        zero_default: values.zero_default,
     })
 }
 

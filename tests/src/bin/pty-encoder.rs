@@ -3,7 +3,8 @@
 //! `pty-encoder --format t485 --angle-bits 23 turning=0.5`: profile parameters, then settings.
 //! Prints the path of the pty's other end, then takes a setting a line from standard input:
 //! `turning=R` (revolutions per second), `still=TURNS`, `status=BITS`, `error=0|1`,
-//! `warning=0|1`, `temperature=TENTHS`, and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
+//! `warning=0|1`, `temperature=TENTHS`, the supply `power=off|on|set|reset`
+//! (with a zero input of the IP-75 at 0 V), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
 //! replies). The end of standard input pulls the plug. What a stream sends while nobody reads is
 //! lost.
@@ -19,8 +20,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
     use encoderscope::{
-        emulator::{Emulator, Shaft},
+        emulator::{Emulator, Shaft, ZeroInput},
         profile::Profile,
+        session::Micros,
     };
     use rustix::{
         event::{PollFd, PollFlags, Timespec, poll},
@@ -38,7 +40,7 @@ mod native {
             .map(|(name, value)| (name.as_str(), value.as_str()));
         let mut emulator = Emulator::new(Profile::parse(pairs)?, Shaft::still(0.0))?;
         for setting in &settings {
-            set(&mut emulator, setting)?;
+            set(&mut emulator, setting, 0)?;
         }
 
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
@@ -80,7 +82,7 @@ mod native {
         Ok((parameters, settings))
     }
 
-    fn set(emulator: &mut Emulator, setting: &str) -> Result<(), Box<dyn Error>> {
+    fn set(emulator: &mut Emulator, setting: &str, now: Micros) -> Result<(), Box<dyn Error>> {
         let (name, value) = setting
             .trim()
             .split_once('=')
@@ -93,6 +95,13 @@ mod native {
             "warning" => emulator.warning = value == "1",
             "echo" => emulator.faults.echo = value == "1",
             "silent" => emulator.faults.silent = value == "1",
+            "power" => match value {
+                "off" => emulator.power_off(now),
+                "on" => emulator.power_on(now, None),
+                "set" => emulator.power_on(now, Some(ZeroInput::Set)),
+                "reset" => emulator.power_on(now, Some(ZeroInput::Reset)),
+                _ => return Err(format!("{value} is no supply").into()),
+            },
             "temperature" => emulator.temperature = value.parse()?,
             "lose" => emulator.faults.lose = value.parse()?,
             "late" => emulator.faults.late = value.parse()?,
@@ -145,7 +154,8 @@ mod native {
                 text.push_str(&String::from_utf8_lossy(&buffer[..count]));
                 while let Some(end) = text.find('\n') {
                     let setting: String = text.drain(..=end).collect();
-                    set(emulator, &setting)?;
+                    let now = start.elapsed().as_micros() as u64;
+                    set(emulator, &setting, now)?;
                 }
             }
         }

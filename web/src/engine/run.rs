@@ -1,17 +1,18 @@
 //! An open link: a session, or a sequence meanwhile, over a port or with the built-in encoder.
 
 use crate::{
-    message::{Link, Setting},
+    message::{Link, Setting, Supply},
     serial::{Port, Reader},
     tally::Tally,
 };
 use encoderscope::{
     decode::Decoder,
-    emulator::Emulator,
+    emulator::{Emulator, ZeroInput},
+    format::t485::Request,
     framing::Why,
     profile::Profile,
     sequence::{Change, Event, Holds, Runner},
-    session::{Micros, Output, Session},
+    session::{Ask, Micros, Output, Session},
 };
 
 /// Requests without a reply after which the link is called silent.
@@ -114,6 +115,26 @@ impl Run {
             }
         }
         self.looked = now;
+    }
+
+    /// Asks for a cell of the EEPROM, where the encoder has one.
+    pub(super) fn read_memory(&mut self, address: u8, tally: &mut Tally) {
+        let ask = Ask::t485(self.session.decoder(), Request::MemoryRead, address);
+        if ask.is_ok_and(|ask| self.session.ask(ask).is_ok()) {
+            tally.ask_memory(address);
+        }
+    }
+
+    /// Switches the supply of the built-in encoder.
+    pub(super) fn supply(&mut self, supply: Supply, now: Micros) {
+        if let Wire::Demo(emulator) = &mut self.wire {
+            match supply {
+                Supply::Off => emulator.power_off(now),
+                Supply::On => emulator.power_on(now, None),
+                Supply::OnWithSet => emulator.power_on(now, Some(ZeroInput::Set)),
+                Supply::OnWithReset => emulator.power_on(now, Some(ZeroInput::Reset)),
+            }
+        }
     }
 
     /// When something is to be done next.

@@ -134,7 +134,9 @@ impl App {
                 Some(chosen) => match serial::find(&known, chosen) {
                     Some(index) => self.open(known[index]),
                     None => self.notice.set(Some(
-                        "The adapter is not plugged in. Plug it in, or choose another port.".into(),
+                        "The adapter is not plugged in, or this page may no longer use it. Plug it in, \
+                         or choose or add a port."
+                            .into(),
                     )),
                 },
                 None => match known.first() {

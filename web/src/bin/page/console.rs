@@ -7,6 +7,7 @@ use crate::{
     log::Frames,
     profile_editor::{Offer, ProfileEditor},
     setting::SettingPanel,
+    zero_wire::ZeroWire,
 };
 use encoderscope_web::{
     message::Link,
@@ -24,7 +25,7 @@ pub(crate) fn Console() -> impl IntoView {
             {move || (!preview()).then(|| view! { <LinkPanel /> })}
             <Angle />
             <Status />
-            {move || (!preview()).then(|| view! { <SettingPanel /> })}
+            {move || (!preview()).then(|| view! { <SettingPanel /> <ZeroWire /> })}
             <Frames />
         </div>
     }

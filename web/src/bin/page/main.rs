@@ -12,12 +12,14 @@ mod console;
 mod decode;
 mod demo;
 mod dial;
+mod eeprom;
 mod frame_view;
 mod link_panel;
 mod live;
 mod log;
 mod profile_editor;
 mod setting;
+mod zero_wire;
 
 use wasm_bindgen::prelude::*;
 
