@@ -1,4 +1,4 @@
-// Bad days over real Web Serial: two tabs, a tab asleep, a page that goes away, noise.
+// Bad days over real Web Serial: a tab in the background, asleep, or closed, and noise.
 import { at, expect, expectLink, number, test, until } from './page.js';
 import { Encoder } from './encoder.js';
 
@@ -31,34 +31,16 @@ const counts = async (page) => {
   return { all, framed, skipped };
 };
 
-/** Ends reading; what is in no frame and not skipped is what was still being weighed. */
+/** Ends reading; every byte is in a frame or skipped. */
 const expectAllAccounted = async (page) => {
   await at(page, 'disconnect').click();
   await expectLink(page, 'closed');
   const { all, framed, skipped } = await counts(page);
   expect(all).toBeGreaterThan(0);
-  expect(all - framed - skipped).toBeGreaterThanOrEqual(0);
-  expect(all - framed - skipped).toBeLessThan(128);
+  expect(framed + skipped).toBe(all);
 };
 
 const T485 = 'format=t485&angle-bits=23';
-
-test('a second tab is refused the port, and has it when the first lets go @serial', async ({ page, context }) => {
-  await plug(page, T485, 'still=0.5');
-  const second = await context.newPage();
-  await connect(second, T485);
-  await expectLink(second, 'refused');
-  await expect(at(second, 'link-state')).toContainText('Close other tabs');
-  const frames = await number(page, 'frames-ok');
-  await page.bringToFront();
-  await until(page, 'frames-ok', (now) => now > frames + 50);
-  await at(page, 'disconnect').click();
-  await expectLink(page, 'closed');
-  await second.bringToFront();
-  await at(second, 'connect').click();
-  await expectLink(second, 'reading');
-  await until(second, 'angle', (angle) => angle === 2 ** 22);
-});
 
 test('a page that goes away lets go of the port @serial', async ({ page, context }) => {
   await plug(page, T485, 'still=0.5');
@@ -69,7 +51,14 @@ test('a page that goes away lets go of the port @serial', async ({ page, context
   await until(second, 'angle', (angle) => angle === 2 ** 22);
 });
 
-/** Freezes a page for a while, as a browser does with tabs in the background. */
+/** Puts the worker to sleep, as a machine does whose lid is closed. */
+const sleep = (page, milliseconds) =>
+  page.workers()[0].evaluate((milliseconds) => {
+    const end = performance.now() + milliseconds;
+    while (performance.now() < end);
+  }, milliseconds);
+
+/** Freezes a page, as a browser does with tabs in the background. */
 const freeze = async (page, context, milliseconds) => {
   const session = await context.newCDPSession(page);
   await session.send('Page.setWebLifecycleState', { state: 'frozen' });
@@ -77,26 +66,57 @@ const freeze = async (page, context, milliseconds) => {
   await session.send('Page.setWebLifecycleState', { state: 'active' });
 };
 
-for (const [name, query] of [
-  ['a polled encoder', T485],
-  ['a stream', 'format=period&angle-bits=24'],
+const latencies = async (page) => {
+  const evidence = await page.locator('.evidence').textContent();
+  return [...evidence.matchAll(/([\d.]+) ms/g)].map(([, latency]) => Number(latency));
+};
+
+for (const [name, query, angle] of [
+  ['a polled encoder', T485, 2 ** 22],
+  ['a stream', 'format=period&angle-bits=24', 2 ** 23],
 ]) {
-  test(`a tab that was frozen reads ${name} on, and its counters stay true @serial`, async ({ page, context }) => {
+  test(`a tab that was frozen, and one that slept, reads ${name} on @serial`, async ({ page, context }) => {
     await plug(page, query, 'still=0.5');
-    await until(page, 'frames-ok', (frames) => frames > 300);
-    await freeze(page, context, 4_000);
-    await expectLink(page, 'reading');
-    const frames = await number(page, 'frames-ok');
-    await until(page, 'frames-ok', (now) => now > frames + 300);
-    await until(page, 'angle', (angle) => angle === 2 ** (name === 'a stream' ? 23 : 22));
-    // No reply is said to have taken as long as the sleep.
-    const evidence = await at(page, 'link-state').locator('xpath=following-sibling::p').first().textContent();
-    for (const [, latency] of evidence.matchAll(/([\d.]+) ms/g)) {
-      expect(Number(latency)).toBeLessThan(1_000);
+    await until(page, 'frames-ok', (frames) => frames > 100);
+    for (const away of [freeze, (page, _, milliseconds) => sleep(page, milliseconds)]) {
+      await away(page, context, 3_000);
+      await expectLink(page, 'reading');
+      const frames = await number(page, 'frames-ok');
+      await until(page, 'frames-ok', (now) => now > frames + 300);
+      expect(await number(page, 'angle')).toBe(angle);
+      // No reply is said to have taken as long as the sleep.
+      for (const latency of await latencies(page)) expect(latency).toBeLessThan(1_000);
     }
+    expect(await number(page, 'frames-bad')).toBe(0);
     await expectAllAccounted(page);
   });
 }
+
+test('a reply that waited while the tab slept does not count as a slow one @serial', async ({ page }) => {
+  await plug(page, T485, 'still=0.5');
+  // Few replies, so that one would show in the slowest of a hundred.
+  for (const frames of [20, 40, 60]) {
+    await until(page, 'frames-ok', (now) => now > frames);
+    await sleep(page, 1_500);
+  }
+  await expectLink(page, 'reading');
+  for (const latency of await latencies(page)) expect(latency).toBeLessThan(1_000);
+  await expectAllAccounted(page);
+});
+
+test('a setting does not go on after a sleep, for the shaft may have moved @serial', async ({ page }) => {
+  await plug(page, 'format=rs485&angle-bits=24&command=d', 'still=5.25');
+  await until(page, 'angle', (angle) => angle === 2 ** 22);
+  await at(page, 'zero-start').click();
+  await expect(at(page, 'gate')).toHaveAttribute('data-value', 'true');
+  await at(page, 'zero-confirm').click();
+  await until(page, 'zero-count', (count) => count >= 2 && count < 9);
+  await sleep(page, 3_000);
+  await expect(at(page, 'zero-outcome')).toHaveAttribute('data-value', 'no');
+  await page.getByRole('button', { name: 'Done' }).click();
+  await expectLink(page, 'reading');
+  await until(page, 'angle', (angle) => angle === 2 ** 22);
+});
 
 test('a tab in the background reads on, and at most one snapshot is on its way @serial', async ({ page, context }) => {
   await page.addInitScript(() => {
@@ -144,30 +164,31 @@ test('a tab in the background reads on, and at most one snapshot is on its way @
   await expectAllAccounted(page);
 });
 
-// Of 1000 reply bytes 50 have a bit turned over. A CRC of eight bits lets one of 256 damaged
-// frames pass when several bits are wrong; a single wrong bit never passes. Frames in which two
-// or more bytes are hit are 1 in 10, so among 100 good ones one wrong in a few hundred is to be
-// expected: the angle may be wrong for a moment, and is so rarely.
-for (const [name, query, turns] of [
-  ['T485', T485, 2 ** 22],
-  ['RS485', 'format=rs485&angle-bits=24&command=d', 2 ** 23],
-  ['BUS', 'format=bus&angle-bits=24', 2 ** 23],
-  ['PERIOD', 'format=period&angle-bits=24', 2 ** 23],
-  ['ASI1', 'format=asi1', 2 ** 13],
-  ['ASI4', 'format=asi4', 2 ** 13],
+// Of 1000 reply bytes 50 have a bit turned over. A CRC of eight bits finds every single wrong bit,
+// and lets 1 of 256 frames pass in which more bytes are hit; two or more are hit in 1 of 10 frames
+// or fewer. So a wrong angle among a few thousand good ones is to be expected, and shows for a
+// frame's time. The text of ASI4 has no check at all: a digit that becomes another one is a
+// number like any other, which is the case in 1 of 10 lines.
+for (const [name, query, angle, wrong] of [
+  ['T485', T485, 2 ** 22, 0.02],
+  ['RS485', 'format=rs485&angle-bits=24&command=d', 2 ** 23, 0.02],
+  ['BUS', 'format=bus&angle-bits=24', 2 ** 23, 0.02],
+  ['PERIOD', 'format=period&angle-bits=24', 2 ** 23, 0.02],
+  ['ASI1', 'format=asi1', 2 ** 13, 0],
+  ['ASI4', 'format=asi4', 2 ** 13, 0.25],
 ]) {
   test(`5 % of noise on ${name}: good frames are found, and the angle is right @serial`, async ({ page }) => {
     await plug(page, query, 'still=5.5');
-    await until(page, 'angle', (angle) => angle === turns);
+    await until(page, 'angle', (now) => now === angle);
     encoder.set('flip=50');
     const before = await number(page, 'frames-ok');
     const seen = await page.evaluate(
       (wanted) =>
         new Promise((done) => {
           const seen = { right: 0, wrong: [] };
-          const angle = document.querySelector('[data-testid="angle"]');
+          const shown = document.querySelector('[data-testid="angle"]');
           const look = () => {
-            const value = Number(angle.dataset.value);
+            const value = Number(shown.dataset.value);
             if (value === wanted) seen.right += 1;
             else seen.wrong.push(value);
           };
@@ -177,15 +198,15 @@ for (const [name, query, turns] of [
             done(seen);
           }, 5_000);
         }),
-      turns,
+      angle,
     );
     const good = (await number(page, 'frames-ok')) - before;
     expect(good).toBeGreaterThan(10);
     expect(seen.right).toBeGreaterThan(100);
-    expect(seen.wrong.length, `${seen.wrong}`).toBeLessThanOrEqual(seen.right / 50);
+    expect(seen.wrong.length, `${seen.wrong}`).toBeLessThanOrEqual(seen.right * wrong);
     encoder.set('flip=0');
     await expectLink(page, 'reading');
-    await until(page, 'angle', (angle) => angle === turns);
+    await until(page, 'angle', (now) => now === angle);
     await expectAllAccounted(page);
   });
 }

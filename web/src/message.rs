@@ -292,7 +292,7 @@ pub struct Lamp {
 }
 
 /// Counts since the link was opened; bytes in = bytes in frames + skipped + in sequences +
-/// not yet judged.
+/// not yet judged, which is nothing once the link has ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Good frames.

@@ -6,7 +6,8 @@
 //! `warning=0|1`, `temperature=TENTHS`, the supply `power=off|on|set|reset`
 //! (with a zero input of the IP-75 at 0 V), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
-//! replies). The end of standard input pulls the plug. What a stream sends while nobody reads is
+//! replies). `exclusive=0` lets another program open the pty, as the last close of a real port does;
+//! this one is held open here. The end of standard input pulls the plug. What a stream sends while nobody reads is
 //! lost.
 
 #[cfg(target_arch = "wasm32")]
@@ -29,7 +30,7 @@ mod native {
         fs::{Mode, OFlags, open},
         io::{Errno, ioctl_fionbio, read, write},
         pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt},
-        termios::{OptionalActions, tcgetattr, tcsetattr},
+        termios::{OptionalActions, ioctl_tiocnxcl, tcgetattr, tcsetattr},
     };
     use std::{error::Error, io::Write, os::fd::OwnedFd, time::Instant};
 
@@ -59,7 +60,7 @@ mod native {
         tcsetattr(&slave, OptionalActions::Now, &raw)?;
         println!("{}", path.to_str()?);
         std::io::stdout().flush()?;
-        serve(&mut emulator, &master)
+        serve(&mut emulator, &master, &slave)
     }
 
     type Arguments = (Vec<(String, String)>, Vec<String>);
@@ -114,7 +115,11 @@ mod native {
         Ok(())
     }
 
-    fn serve(emulator: &mut Emulator, master: &OwnedFd) -> Result<(), Box<dyn Error>> {
+    fn serve(
+        emulator: &mut Emulator,
+        master: &OwnedFd,
+        slave: &OwnedFd,
+    ) -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let stdin = std::io::stdin();
         let mut buffer = [0; 4096];
@@ -155,7 +160,10 @@ mod native {
                 while let Some(end) = text.find('\n') {
                     let setting: String = text.drain(..=end).collect();
                     let now = start.elapsed().as_micros() as u64;
-                    set(emulator, &setting, now)?;
+                    match setting.trim() {
+                        "exclusive=0" => ioctl_tiocnxcl(slave)?,
+                        setting => set(emulator, setting, now)?,
+                    }
                 }
             }
         }

@@ -156,8 +156,12 @@ impl Run {
         }
     }
 
-    /// The link is going away: a sequence ends here.
+    /// The link is going away: a sequence ends here, and every byte is accounted for.
     pub(super) fn abandon(&mut self, tally: &mut Tally) {
+        self.session.finish();
+        while let Some(output) = self.session.poll_output() {
+            tally.take(self.looked, &output);
+        }
         if let Some((_, runner)) = &mut self.setting {
             runner.stop();
             while let Some(event) = runner.poll_output() {
