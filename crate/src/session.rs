@@ -19,6 +19,7 @@
 
 mod ask;
 mod hand;
+mod stream;
 
 pub use ask::{Ask, Refusal};
 pub use hand::Hand;
@@ -26,9 +27,10 @@ pub use hand::Hand;
 use crate::{
     decode::Decoder,
     format::{Format, Link, bus},
-    framing::{Framer, PieceKind, Why},
+    framing::{Framer, Why},
 };
 use alloc::{collections::VecDeque, vec::Vec};
+use stream::reported;
 
 /// Microseconds.
 pub type Micros = u64;
@@ -224,6 +226,26 @@ impl Session {
         self.state = State::Fresh;
     }
 
+    /// The line has ended: everything that has come is reported.
+    ///
+    /// ```
+    /// use encoderscope::{decode::Decoder, framing::Why, profile::Profile, session::{Output, Session}};
+    /// let decoder = Decoder::new(Profile::parse([("format", "period")])?)?;
+    /// let mut session = Session::new(decoder, 0).unwrap();
+    /// session.handle_input(0, &[7]);
+    /// session.finish();
+    /// let skip = Output::Skip { bytes: vec![7], why: Why::NoFrame };
+    /// assert_eq!(session.poll_output(), Some(skip));
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    pub fn finish(&mut self) {
+        self.rest();
+        let output = &mut self.output;
+        self.framer.finish(&self.decoder, &mut |piece| {
+            output.push_back(reported(&piece));
+        });
+    }
+
     /// The decoder that reads the replies.
     #[must_use]
     pub const fn decoder(&self) -> &Decoder {
@@ -336,15 +358,7 @@ impl Session {
     fn listen(&mut self, bytes: &[u8]) {
         let output = &mut self.output;
         self.framer.push(&self.decoder, bytes, &mut |piece| {
-            let bytes = piece.bytes.into();
-            output.push_back(match piece.kind {
-                PieceKind::Frame { sure, .. } => Output::Frame {
-                    bytes,
-                    sure,
-                    latency: None,
-                },
-                PieceKind::Skip(why) => Output::Skip { bytes, why },
-            });
+            output.push_back(reported(&piece));
         });
     }
 

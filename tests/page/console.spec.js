@@ -124,21 +124,6 @@ test('a browser without workers runs the engine on the page', async ({ page }) =
   expect(page.workers()).toHaveLength(0);
 });
 
-test('no port chosen is said', async ({ page }) => {
-  await page.addInitScript(() => {
-    const serial = {
-      getPorts: async () => [],
-      requestPort: async () => {
-        throw new DOMException('No port selected by the user.', 'NotFoundError');
-      },
-    };
-    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
-  });
-  await page.goto('/');
-  await at(page, 'connect').click();
-  await expect(page.getByRole('alert')).toHaveText('No port was chosen.');
-});
-
 test('it fits a phone and follows the theme', async ({ page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   for (const area of ['console', 'decode']) {
@@ -155,60 +140,6 @@ test('it fits a phone and follows the theme', async ({ page }) => {
   await expect.poll(ground).not.toBe(light);
 });
 
-test('a port that never opens can be given up', async ({ page }) => {
-  await page.addInitScript(() => {
-    // No worker, so that the scripted port below is the one the engine sees.
-    window.Worker = class {
-      constructor() {
-        throw new Error('no workers here');
-      }
-    };
-    const port = { getInfo: () => ({}), open: () => new Promise(() => {}) };
-    const serial = { getPorts: async () => [port] };
-    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
-  });
-  await page.goto('/');
-  await at(page, 'connect').click();
-  await expectLink(page, 'opening');
-  await at(page, 'disconnect').click();
-  await expectLink(page, 'closed');
-  await expectDemo(page);
-});
-
-test('replies that become too short are not shown as reading', async ({ page }) => {
-  await page.addInitScript(() => {
-    window.Worker = class {
-      constructor() {
-        throw new Error('no workers here');
-      }
-    };
-    const reply = [0x1a, 0x20, 0x29, 0xc0, 0x3b, 0x17, 0, 0, 0, 0xc8, 0x37];
-    let sent = 0;
-    let out;
-    const port = {
-      getInfo: () => ({}),
-      open: async () => {
-        port.readable = new ReadableStream({ start: (controller) => (out = controller) });
-        port.writable = new WritableStream({
-          write: () => {
-            sent += 1;
-            const bytes = sent > 20 ? reply.slice(0, 5) : reply;
-            setTimeout(() => out.enqueue(new Uint8Array(bytes)), 1);
-          },
-        });
-      },
-      close: async () => {},
-    };
-    const serial = { getPorts: async () => [port] };
-    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
-  });
-  await page.goto('/#/console?format=t485');
-  await at(page, 'connect').click();
-  await expectLink(page, 'reading');
-  await expectLink(page, 'garbage');
-  await expect(page.getByText('last reading before the link stopped')).toBeVisible();
-});
-
 test('what is shown and what runs are one profile', async ({ page }) => {
   await page.goto('/#/console?format=rs485&command=0');
   await expectDemo(page);
@@ -216,46 +147,4 @@ test('what is shown and what runs are one profile', async ({ page }) => {
   await page.getByRole('link', { name: 'Console', exact: true }).click();
   await expect(at(page, 'profile')).toContainText('17 bit');
   await expect(page.getByText('/ 131 072 counts')).toBeVisible();
-});
-
-test('when the chosen adapter is unplugged, another is not taken for it', async ({ page }) => {
-  await page.addInitScript(() => {
-    window.Worker = class {
-      constructor() {
-        throw new Error('no workers here');
-      }
-    };
-    const made = (usbVendorId, usbProductId) => {
-      const port = {
-        opened: 0,
-        getInfo: () => ({ usbVendorId, usbProductId }),
-        open: async () => {
-          port.opened += 1;
-          port.readable = new ReadableStream();
-          port.writable = new WritableStream();
-        },
-        close: async () => {},
-      };
-      return port;
-    };
-    window.ports = [made(0x0403, 0x6014), made(0x1a86, 0x55d3)];
-    window.all = [...window.ports];
-    const serial = { getPorts: async () => window.ports };
-    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
-  });
-  await page.goto('/');
-  await at(page, 'connect').click();
-  await expectLink(page, 'waiting');
-  await expect(page.getByText('FT232H').first()).toBeVisible();
-  await at(page, 'disconnect').click();
-  await expectLink(page, 'closed');
-  await page.evaluate(() => window.ports.shift());
-  await at(page, 'connect').click();
-  await expect(page.getByRole('alert')).toContainText('not plugged in');
-  expect(await page.evaluate(() => window.all.map((port) => port.opened))).toEqual([1, 0]);
-  await expect(at(page, 'port').locator('option:checked')).toContainText('FT232H · not plugged in');
-  await at(page, 'port').selectOption({ label: 'CH343' });
-  await at(page, 'connect').click();
-  await expectLink(page, 'waiting');
-  expect(await page.evaluate(() => window.all.map((port) => port.opened))).toEqual([1, 1]);
 });

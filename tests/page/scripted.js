@@ -21,8 +21,9 @@ const install = ({ described, reply }) => {
     writing = null;
     /** The error that every new stream fails with at once. */
     storm = null;
-    /** What is answered to a write; nothing where the encoder is silent. */
+    /** What is answered to a write, and whether anything is. */
     reply = reply;
+    mute = false;
     opened = 0;
     writes = 0;
     streams = 0;
@@ -66,7 +67,10 @@ const install = ({ described, reply }) => {
         start: (controller) => {
           this.#out = controller;
         },
-        cancel: () => (this.cancelling === 'never' ? never() : undefined),
+        cancel: () => {
+          this.#out = null;
+          return this.cancelling === 'never' ? never() : undefined;
+        },
       });
       this.#readable = stream;
       if (this.storm) this.fail(this.storm);
@@ -86,27 +90,29 @@ const install = ({ described, reply }) => {
         this.#writable = null;
         throw raised(this.writing);
       }
-      if (this.reply) setTimeout(() => this.say(this.reply), 1);
+      if (!this.mute) setTimeout(() => this.say(this.reply), 1);
       return undefined;
     }
 
     /** The encoder says something. */
     say(bytes) {
-      if (this.#readable) this.#out.enqueue(new Uint8Array(bytes));
+      this.#out?.enqueue(new Uint8Array(bytes));
     }
 
     /** The stream fails; unless the error is fatal, another takes its place. */
     fail(name) {
       if (name === 'NetworkError') this.#dead = true;
       this.#readable = null;
-      this.#out.error(raised(name));
+      this.#out?.error(raised(name));
+      this.#out = null;
     }
 
     /** The stream ends, as if the port had been closed. */
     end() {
       this.#dead = true;
       this.#readable = null;
-      this.#out.close();
+      this.#out?.close();
+      this.#out = null;
     }
 
     /** The device goes away; how the streams take it is another matter. */
@@ -117,7 +123,7 @@ const install = ({ described, reply }) => {
 
     /** The plug is pulled. */
     unplug() {
-      if (this.#readable) this.fail('NetworkError');
+      this.fail('NetworkError');
       this.#open = false;
       this.#writable = null;
       this.disconnect();

@@ -88,6 +88,37 @@ for (const [name, query] of [
   });
 }
 
+for (const [name, query, setting, angle] of [
+  ['RS485', 'format=rs485&angle-bits=24&command=d', 'Zero', 2 ** 22],
+  ['BUS', 'format=bus&angle-bits=24', 'Zero', 2 ** 22],
+  ['T485', 'format=t485&angle-bits=23', 'ResetAngle', 2 ** 21],
+]) {
+  test(`${name} is not set while the shaft moves, whoever asks @serial`, async ({ page }) => {
+    await page.addInitScript(() => {
+      const Real = window.Worker;
+      window.Worker = class extends Real {
+        constructor(...words) {
+          super(...words);
+          window.reader = this;
+        }
+      };
+    });
+    await plug(page, query, 'turning=0.5');
+    await at(page, 'zero-start').click();
+    await expect(at(page, 'gate')).toContainText('moves');
+    await expect(at(page, 'zero-confirm')).toBeDisabled();
+    // A message that no button has sent.
+    await page.evaluate((setting) => window.reader.postMessage({ Set: setting }), setting);
+    await expectOutcome(page, 'no');
+    await expect(at(page, 'zero-outcome')).toContainText('Nothing was sent');
+    expect(await at(page, 'zero-count').count()).toBe(0);
+    await expect(at(page, 'bytes-set')).toHaveCount(0);
+    encoder.set('still=5.25');
+    await until(page, 'angle', (now) => now === angle);
+    expect(await number(page, 'turns')).toBe(5);
+  });
+}
+
 test('T485 angle and turns are reset over the wire @serial', async ({ page }) => {
   await plug(page, 'format=t485&angle-bits=23', 'still=5.25');
   await until(page, 'angle', (angle) => angle === 2 ** 21);

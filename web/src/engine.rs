@@ -1,6 +1,7 @@
 //! The engine: drives a session over a port or against the built-in encoder, and keeps what
 //! the page shows. It runs in a dedicated worker, or on the page where it must.
 
+mod ending;
 mod line;
 mod run;
 mod talk;
@@ -19,7 +20,7 @@ use encoderscope::{
     profile::{Profile, ProfileError},
     session::{Micros, Session},
 };
-use line::shut;
+use ending::shut;
 use run::{Run, Todo, Wire};
 use std::{cell::RefCell, rc::Rc};
 use talk::Talk;
@@ -103,6 +104,8 @@ impl Engine {
             ToEngine::Send { bytes, confirmed } => state.send(&bytes, confirmed),
             ToEngine::Pace(rate) => state.pace(rate),
             ToEngine::Log(filter) => state.tally.filter(filter),
+            ToEngine::ReadMemory(address) => state.read_memory(address),
+            ToEngine::Supply(supply) => state.supply(supply),
             ToEngine::Turn(speed) => state.turn(speed),
             ToEngine::Knobs(knobs) => state.adjust(knobs),
             ToEngine::Open { .. }

@@ -49,6 +49,10 @@ pub enum ToEngine {
     Pace(f64),
     /// Which entries of the log the page shows.
     Log(LogFilter),
+    /// Read a cell of the EEPROM (T485, Tamagawa), 0…127.
+    ReadMemory(u8),
+    /// Switch the supply of the built-in encoder.
+    Supply(Supply),
     /// Turn the shaft of the built-in encoder evenly, in revolutions per second.
     Turn(f64),
     /// What the built-in encoder reports, and what goes wrong on its line.
@@ -72,6 +76,35 @@ pub enum Setting {
     ResetErrors,
     /// The address on the bus.
     Address(u8),
+    /// A byte of the EEPROM.
+    Memory {
+        /// Its cell, 0…127.
+        address: u8,
+        /// What it becomes.
+        data: u8,
+    },
+}
+
+/// The supply of the built-in encoder, and what is tied to 0 V when it comes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Supply {
+    /// Off.
+    Off,
+    /// On.
+    On,
+    /// On, with ZERO SET at 0 V.
+    OnWithSet,
+    /// On, with ZERO RESET at 0 V.
+    OnWithReset,
+}
+
+/// A cell of the EEPROM.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cell {
+    /// Its place, 0…127.
+    pub address: u8,
+    /// What it holds, once it has been read.
+    pub data: Option<u8>,
 }
 
 /// What the built-in encoder reports, and what goes wrong on its line.
@@ -117,6 +150,7 @@ impl Setting {
             Self::ResetTurns => Change::ResetTurns,
             Self::ResetErrors => Change::ResetErrors,
             Self::Address(address) => Change::Address(address),
+            Self::Memory { address, data } => Change::Memory { address, data },
         }
     }
 
@@ -140,6 +174,8 @@ pub struct Progress {
     pub count: Option<u8>,
     /// The position before.
     pub before: Option<Shown>,
+    /// What the cell of the EEPROM held before.
+    pub held: Option<u8>,
     /// How it ended.
     pub outcome: Option<Outcome>,
 }
@@ -285,6 +321,8 @@ pub struct Snapshot {
     pub moved: Option<f64>,
     /// The sequence that runs or has run last.
     pub progress: Option<Progress>,
+    /// The cell of the EEPROM that was asked for last.
+    pub memory: Option<Cell>,
     /// Revolutions per second, from the angles of the last moments.
     pub turning: Option<f64>,
     /// The share of the last replies that were bad or missing.
@@ -374,6 +412,8 @@ pub struct Shown {
     pub speed: Option<f64>,
     /// Degrees Celsius.
     pub temperature: Option<f64>,
+    /// No zero has been set by the user (IP-75, ZPD).
+    pub zero_default: Option<bool>,
 }
 
 /// A status bit.
@@ -390,7 +430,7 @@ pub struct Lamp {
 }
 
 /// Counts since the link was opened; bytes in = bytes in frames + skipped + in sequences +
-/// not yet judged.
+/// not yet judged, which is nothing once the link has ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Good frames.

@@ -6,7 +6,7 @@ mod pace;
 use crate::{
     link::query,
     message::{
-        Counts, Device, Found, Lamp, LogFilter, Outcome, Progress, Search, Setting, Shown,
+        Cell, Counts, Device, Found, Lamp, LogFilter, Outcome, Progress, Search, Setting, Shown,
         Snapshot, Trial,
     },
 };
@@ -90,6 +90,7 @@ pub struct Tally {
     devices: Vec<Kept>,
     scan: Option<String>,
     search: Option<Search>,
+    memory: Option<Cell>,
 }
 
 impl std::fmt::Debug for Tally {
@@ -121,6 +122,7 @@ impl Tally {
             devices: Vec::new(),
             scan: None,
             search: None,
+            memory: None,
         }
     }
 
@@ -186,9 +188,40 @@ impl Tally {
             total: total as u32,
             count: None,
             before,
+            held: self.held(setting),
             outcome: None,
         });
         self.changed = true;
+    }
+
+    /// A cell of the EEPROM has been asked for.
+    pub const fn ask_memory(&mut self, address: u8) {
+        self.memory = Some(Cell {
+            address,
+            data: None,
+        });
+        self.changed = true;
+    }
+
+    /// What the cell that a setting writes held when it was read last.
+    fn held(&self, setting: Setting) -> Option<u8> {
+        match (setting, self.memory) {
+            (Setting::Memory { address, .. }, Some(cell)) if cell.address == address => cell.data,
+            _ => None,
+        }
+    }
+
+    /// What the cell that was to be written holds now.
+    fn settle_memory(&mut self, holds: Holds) {
+        let setting = self.progress.as_ref().map(|progress| progress.setting);
+        if let Some(Setting::Memory { address, data }) = setting {
+            let data = match holds {
+                Holds::New => Some(data),
+                Holds::Old => self.held(Setting::Memory { address, data }),
+                Holds::Unknown => None,
+            };
+            self.memory = Some(Cell { address, data });
+        }
     }
 
     /// A sequence could not begin.
@@ -292,6 +325,7 @@ impl Tally {
                 }
             }
             Event::Ended { stop, holds, .. } => {
+                self.settle_memory(*holds);
                 let changed = match holds {
                     Holds::New => Some(true),
                     Holds::Old => Some(false),
@@ -411,10 +445,14 @@ impl Tally {
         if let Some(frame) = &frame {
             self.take_device(now, frame, good);
         }
+        let memory = frame.as_ref().map(|frame| frame.values().memory);
         match (good, &frame) {
             (true, Some(frame)) => {
                 self.counts.good += 1.0;
-                if self.devices.is_empty() || is_own(&decoder, frame) {
+                if let Some((Some(address), data)) = memory {
+                    // It says nothing about the shaft.
+                    self.memory = Some(Cell { address, data });
+                } else if self.devices.is_empty() || is_own(&decoder, frame) {
                     self.take_good(now, frame);
                 }
                 self.good_times.push_back(now);
@@ -540,6 +578,7 @@ impl Tally {
                 .collect(),
             scan: self.scan.clone(),
             search: self.search.clone(),
+            memory: self.memory,
             ..Snapshot::default()
         };
         if let Some(decoder) = &self.decoder {
@@ -585,6 +624,7 @@ fn shown(frame: &Frame<'_>) -> Option<Shown> {
         status: reading.status,
         speed: scaled(values.speed),
         temperature: scaled(values.temperature),
+        zero_default: values.zero_default,
     })
 }
 

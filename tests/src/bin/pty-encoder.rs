@@ -3,9 +3,11 @@
 //! `pty-encoder --format t485 --angle-bits 23 turning=0.5`: profile parameters, then settings.
 //! Prints the path of the pty's other end, then takes a setting a line from standard input:
 //! `turning=R` (revolutions per second), `still=TURNS`, `status=BITS`, `error=0|1`,
-//! `warning=0|1`, `temperature=TENTHS`, and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
+//! `warning=0|1`, `temperature=TENTHS`, the supply `power=off|on|set|reset`
+//! (with a zero input of the IP-75 at 0 V), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
-//! replies). The end of standard input pulls the plug. What a stream sends while nobody reads is
+//! replies). `exclusive=0` lets another program open the pty, as the last close of a real port does;
+//! this one is held open here. The end of standard input pulls the plug. What a stream sends while nobody reads is
 //! lost.
 
 #[cfg(target_arch = "wasm32")]
@@ -19,15 +21,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
     use encoderscope::{
-        emulator::{Emulator, Shaft},
+        emulator::{Emulator, Shaft, ZeroInput},
         profile::Profile,
+        session::Micros,
     };
     use rustix::{
         event::{PollFd, PollFlags, Timespec, poll},
         fs::{Mode, OFlags, open},
         io::{Errno, ioctl_fionbio, read, write},
         pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt},
-        termios::{OptionalActions, tcgetattr, tcsetattr},
+        termios::{OptionalActions, ioctl_tiocnxcl, tcgetattr, tcsetattr},
     };
     use std::{error::Error, io::Write, os::fd::OwnedFd, time::Instant};
 
@@ -38,7 +41,7 @@ mod native {
             .map(|(name, value)| (name.as_str(), value.as_str()));
         let mut emulator = Emulator::new(Profile::parse(pairs)?, Shaft::still(0.0))?;
         for setting in &settings {
-            set(&mut emulator, setting)?;
+            set(&mut emulator, setting, 0)?;
         }
 
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
@@ -57,7 +60,7 @@ mod native {
         tcsetattr(&slave, OptionalActions::Now, &raw)?;
         println!("{}", path.to_str()?);
         std::io::stdout().flush()?;
-        serve(&mut emulator, &master)
+        serve(&mut emulator, &master, &slave)
     }
 
     type Arguments = (Vec<(String, String)>, Vec<String>);
@@ -80,7 +83,7 @@ mod native {
         Ok((parameters, settings))
     }
 
-    fn set(emulator: &mut Emulator, setting: &str) -> Result<(), Box<dyn Error>> {
+    fn set(emulator: &mut Emulator, setting: &str, now: Micros) -> Result<(), Box<dyn Error>> {
         let (name, value) = setting
             .trim()
             .split_once('=')
@@ -93,6 +96,13 @@ mod native {
             "warning" => emulator.warning = value == "1",
             "echo" => emulator.faults.echo = value == "1",
             "silent" => emulator.faults.silent = value == "1",
+            "power" => match value {
+                "off" => emulator.power_off(now),
+                "on" => emulator.power_on(now, None),
+                "set" => emulator.power_on(now, Some(ZeroInput::Set)),
+                "reset" => emulator.power_on(now, Some(ZeroInput::Reset)),
+                _ => return Err(format!("{value} is no supply").into()),
+            },
             "temperature" => emulator.temperature = value.parse()?,
             "lose" => emulator.faults.lose = value.parse()?,
             "late" => emulator.faults.late = value.parse()?,
@@ -105,7 +115,11 @@ mod native {
         Ok(())
     }
 
-    fn serve(emulator: &mut Emulator, master: &OwnedFd) -> Result<(), Box<dyn Error>> {
+    fn serve(
+        emulator: &mut Emulator,
+        master: &OwnedFd,
+        slave: &OwnedFd,
+    ) -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let stdin = std::io::stdin();
         let mut buffer = [0; 4096];
@@ -145,7 +159,11 @@ mod native {
                 text.push_str(&String::from_utf8_lossy(&buffer[..count]));
                 while let Some(end) = text.find('\n') {
                     let setting: String = text.drain(..=end).collect();
-                    set(emulator, &setting)?;
+                    let now = start.elapsed().as_micros() as u64;
+                    match setting.trim() {
+                        "exclusive=0" => ioctl_tiocnxcl(slave)?,
+                        setting => set(emulator, setting, now)?,
+                    }
                 }
             }
         }

@@ -30,6 +30,19 @@ struct Pair {
     piece: usize,
 }
 
+impl Log {
+    /// Counts the bytes of what a session still has to say.
+    fn count(&mut self, session: &mut Session) {
+        while let Some(output) = session.poll_output() {
+            match output {
+                Output::Frame { bytes, .. } => self.framed += bytes.len(),
+                Output::Skip { bytes, .. } => self.skipped += bytes.len(),
+                Output::Transmit(_) | Output::Silent { .. } => {}
+            }
+        }
+    }
+}
+
 impl Pair {
     fn new(parameters: &str, shaft: Shaft) -> Self {
         let decoder = decoder(parameters);
@@ -387,4 +400,32 @@ fn the_emulated_rs485_encoder_sets_its_zero_after_ten_pairs() {
     );
     encoder.handle_input(60_000, &[0x31]);
     assert_eq!(encoder.poll_output(SECOND).unwrap()[..5], [0, 0, 0, 0, 0]);
+}
+
+#[test]
+fn every_byte_is_accounted_for_when_the_line_ends() {
+    for (parameters, most) in [
+        ("format=t485", 40_000),
+        ("format=rs485 command=d", 40_000),
+        ("format=period", 20_000),
+        ("format=asi1", 20_000),
+        ("format=asi4", 20_000),
+    ] {
+        // Ends at every moment of a reply, of an echo and of a frame.
+        for until in (most - 1_000..most).step_by(97) {
+            let mut pair = Pair::new(parameters, Shaft::turning(0.3, 2.0));
+            pair.piece = 1;
+            pair.emulator.faults.flip = 20;
+            let mut log = pair.run(until);
+            let half = pair.emulator.poll_output(pair.now + 900);
+            let half = half.unwrap_or_default();
+            let half = &half[..half.len() / 2];
+            log.received += half.len();
+            pair.session.handle_input(pair.now, half);
+            pair.session.finish();
+            log.count(&mut pair.session);
+            let told = log.framed + log.skipped;
+            assert_eq!(told, log.received, "{parameters} until {until}");
+        }
+    }
 }

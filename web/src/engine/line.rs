@@ -2,17 +2,17 @@
 
 use super::{
     Engine, State,
+    ending::{refused, shut},
     run::{Run, Wire},
     talk::Talk,
 };
 use crate::{
-    browser::{error_text, now, pause},
+    browser::{now, pause},
     message::{Link, PortId},
     serial::{Port, Read, Reader},
     tally::Tally,
 };
 use encoderscope::finder::{Finder, Output};
-use wasm_bindgen::JsValue;
 
 /// The longest pause between two readers of a line that does nothing but fail, in milliseconds.
 const LONGEST_PAUSE: f64 = 128.0;
@@ -221,36 +221,5 @@ impl Engine {
         self.set_link(Link::Lost);
         shut(wire).await;
         self.work().await;
-    }
-}
-
-fn refused(error: &JsValue) -> Link {
-    let (name, message) = error_text(error);
-    let reason = match name.as_str() {
-        "InvalidStateError" => {
-            "This page still holds it: pull the adapter out and plug it in again.".into()
-        }
-        "SecurityError" => {
-            "The browser blocks serial ports here: see the site's settings, or ask who manages \
-             this computer."
-                .into()
-        }
-        "NetworkError" => format!(
-            "{message} Close other tabs and other programs that use it; on Linux your user must \
-             be in the group dialout."
-        ),
-        _ => message,
-    };
-    Link::Refused { reason }
-}
-
-/// Closes a port that was let go.
-pub(super) async fn shut(wire: Option<Wire>) {
-    if let Some(Wire::Port { port, reader }) = wire {
-        if let Some(reader) = reader {
-            reader.cancel().await;
-            reader.release();
-        }
-        port.close().await;
     }
 }

@@ -7,13 +7,14 @@ use super::{
 };
 use crate::{
     browser::now,
-    message::{FromEngine, Knobs, STILL, Setting},
+    message::{FromEngine, Knobs, STILL, Setting, Supply},
 };
 use encoderscope::{
-    emulator::{Emulator, Faults},
+    emulator::{Emulator, Faults, ZeroInput},
     finder::Finder,
+    format::t485::Request,
     sequence::danger,
-    session::{Hand, Micros},
+    session::{Ask, Hand, Micros},
 };
 
 impl State {
@@ -121,6 +122,18 @@ impl State {
         }
     }
 
+    /// Asks for a cell of the EEPROM, where the encoder has one.
+    pub(super) fn read_memory(&mut self, address: u8) {
+        let session = self.run.as_mut().and_then(|run| run.session.as_mut());
+        let asked = session.is_some_and(|session| {
+            let ask = Ask::t485(session.decoder(), Request::MemoryRead, address);
+            ask.is_ok_and(|ask| session.ask(ask).is_ok())
+        });
+        if asked {
+            self.tally.ask_memory(address);
+        }
+    }
+
     fn built_in(&mut self) -> Option<&mut Emulator> {
         match &mut self.run {
             Some(Run {
@@ -135,6 +148,19 @@ impl State {
     pub(super) fn turn(&mut self, speed: f64) {
         if let Some(emulator) = self.built_in() {
             emulator.shaft = emulator.shaft.going_on(now(), speed);
+        }
+    }
+
+    /// Switches the supply of the built-in encoder.
+    pub(super) fn supply(&mut self, supply: Supply) {
+        let now = now();
+        if let Some(emulator) = self.built_in() {
+            match supply {
+                Supply::Off => emulator.power_off(now),
+                Supply::On => emulator.power_on(now, None),
+                Supply::OnWithSet => emulator.power_on(now, Some(ZeroInput::Set)),
+                Supply::OnWithReset => emulator.power_on(now, Some(ZeroInput::Reset)),
+            }
         }
     }
 

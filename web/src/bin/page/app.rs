@@ -149,7 +149,9 @@ impl App {
                 let index = serial::find(&known, chosen);
                 if index.is_none() {
                     self.notice.set(Some(
-                        "The adapter is not plugged in. Plug it in, or choose another port.".into(),
+                        "The adapter is not plugged in, or this page may no longer use it. Plug it \
+                         in, or choose or add a port."
+                            .into(),
                     ));
                 }
                 index.map(|index| known[index])

@@ -9,6 +9,7 @@ use crate::{
     log::Frames,
     profile_editor::{Offer, ProfileEditor},
     setting::SettingPanel,
+    zero_wire::ZeroWire,
 };
 use encoderscope_web::{
     message::Link,
@@ -31,7 +32,7 @@ pub(crate) fn Console() -> impl IntoView {
                 <Angle />
                 <div class="side">
                     <Status />
-                    {move || (!preview()).then(|| view! { <SettingPanel /> })}
+                    {move || (!preview()).then(|| view! { <SettingPanel /> <ZeroWire /> })}
                 </div>
                 {move || (!preview()).then(|| view! { <DevicesPanel /> })}
                 <Frames />

@@ -72,7 +72,7 @@ fn PortChooser() -> impl IntoView {
             .filter(|port| serial::find(&known, *port).is_none())
     };
     view! {
-        {move || (known() > 0).then(|| view! {
+        {move || (known() > 0 || missing().is_some()).then(|| view! {
             <div class="ports">
                 <label>
                     "Port"

@@ -14,6 +14,7 @@ mod demo;
 mod devices;
 mod dial;
 mod doctor;
+mod eeprom;
 mod finder;
 mod frame_view;
 mod link_panel;
@@ -22,6 +23,7 @@ mod log;
 mod profile_editor;
 mod setting;
 mod theme;
+mod zero_wire;
 
 use wasm_bindgen::prelude::*;
 

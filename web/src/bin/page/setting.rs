@@ -1,7 +1,10 @@
 //! Guided setting: zero, resets and address, with a gate in front and a proof behind.
 
-use crate::app::App;
-use encoderscope::profile::Profile;
+use crate::{
+    app::App,
+    eeprom::{Eeprom, byte_text},
+};
+use encoderscope::{profile::Profile, sequence::Change};
 use encoderscope_web::message::{Link, Outcome, Progress, STILL, Setting, Shown, ToEngine};
 use leptos::prelude::*;
 
@@ -19,6 +22,15 @@ fn offered(profile: &Profile) -> Vec<Setting> {
         .collect()
 }
 
+/// Whether the encoder has an EEPROM that can be written.
+fn has_memory(profile: &Profile) -> bool {
+    let change = Change::Memory {
+        address: 0,
+        data: 0,
+    };
+    change.script(profile).is_some()
+}
+
 const fn title(setting: Setting) -> &'static str {
     match setting {
         Setting::Zero => "Set zero",
@@ -26,6 +38,7 @@ const fn title(setting: Setting) -> &'static str {
         Setting::ResetTurns => "Reset turns",
         Setting::ResetErrors => "Reset errors",
         Setting::Address(_) => "Set address",
+        Setting::Memory { .. } => "Write EEPROM",
     }
 }
 
@@ -38,6 +51,7 @@ const fn meaning(setting: Setting) -> &'static str {
         Setting::Address(_) => {
             "Every device on the wire hears this and takes the new address: connect only one."
         }
+        Setting::Memory { .. } => "The byte is stored in the encoder and stays without power.",
     }
 }
 
@@ -92,7 +106,11 @@ pub(crate) fn SettingPanel() -> impl IntoView {
                 {match (progress, chosen.get()) {
                     (Some(progress), _) => view! { <Running progress=progress chosen=chosen /> }.into_any(),
                     (None, Some(setting)) => view! { <Gate setting=setting chosen=chosen /> }.into_any(),
-                    (None, None) => view! { <div class="doors">{doors()}</div> }.into_any(),
+                    (None, None) => view! {
+                        <div class="doors">{doors()}</div>
+                        {has_memory(&app.profile.get()).then(|| view! { <Eeprom chosen=chosen /> })}
+                    }
+                    .into_any(),
                 }}
             </section>
         })
@@ -109,6 +127,7 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
         parsed.filter(|address| *address < 32)
     });
     let moved = Memo::new(move |_| app.snapshot.get().moved);
+    let held = Memo::new(move |_| app.snapshot.get().memory.and_then(|cell| cell.data));
     let still = move || moved.get().is_some_and(|moved| moved < STILL);
     let ready = move || {
         let rest = !setting.needs_rest() || still();
@@ -143,6 +162,12 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
                 <input inputmode="numeric" name="new-address" prop:value=move || address.get() on:input:target=move |event| address.set(event.target().value()) />
             </label>
         })}
+        {move || match setting {
+            Setting::Memory { address, data } => Some(view! {
+                <p data-testid="memory-change">{memory_change(address, held.get(), data)}</p>
+            }),
+            _ => None,
+        }}
         <div class="doors">
             <button class="primary" data-testid="zero-confirm" disabled=move || !ready() on:click=confirm>
                 {title(setting)} " now"
@@ -150,6 +175,12 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
             <button on:click=move |_| chosen.set(None)>"Cancel"</button>
         </div>
     }
+}
+
+/// What is to be written where, in words.
+fn memory_change(address: u8, held: Option<u8>, data: u8) -> String {
+    let held = held.map_or("what it holds".into(), byte_text);
+    format!("Cell 0x{address:02X}: {held} becomes {}", byte_text(data))
 }
 
 /// The position in words.
@@ -170,6 +201,7 @@ fn Running(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoVi
         total,
         count,
         before,
+        held,
         outcome,
     } = progress;
     let again = move |_| {
@@ -207,14 +239,25 @@ fn Running(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoVi
                 Some(false) => "no",
                 None => "unknown",
             };
-            let now = move || app.snapshot.get().reading.map(|shown| position(&shown));
+            let in_memory = matches!(setting, Setting::Memory { .. });
+            let before = match in_memory {
+                true => held.map(byte_text),
+                false => before.map(|before| position(&before)),
+            };
+            let now = move || {
+                let snapshot = app.snapshot.get();
+                match in_memory {
+                    true => snapshot.memory.and_then(|cell| cell.data).map(byte_text),
+                    false => snapshot.reading.map(|shown| position(&shown)),
+                }
+            };
             view! {
                 <p class=tone data-testid="zero-outcome" data-value=changed>{outcome.text}</p>
                 {counted}
                 <dl class="counts">
-                    {before.map(|before| view! { <dt>"before"</dt> <dd>{position(&before)}</dd> })}
+                    {before.map(|before| view! { <dt>"before"</dt> <dd data-testid="setting-before">{before}</dd> })}
                     <dt>"now"</dt>
-                    <dd>{now}</dd>
+                    <dd data-testid="setting-now">{now}</dd>
                 </dl>
                 <div class="doors">
                     <button class="primary" on:click=again>"Done"</button>
