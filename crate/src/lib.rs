@@ -9,7 +9,8 @@
 //! - [`explain`]: what the bits say, from any frame;
 //! - [`detect`]: what a dump may be, ranked by evidence;
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
-//!   [`emulator`]: the encoder's side of it all.
+//!   [`emulator`]: the encoder's side of it all;
+//! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
 //! that was chosen.
@@ -31,6 +32,7 @@ pub mod errata;
 pub mod explain;
 pub mod format;
 pub mod framing;
+pub mod history;
 pub mod layout;
 pub mod model;
 pub mod profile;
@@ -38,3 +40,4 @@ pub mod reading;
 pub mod record;
 pub mod sequence;
 pub mod session;
+pub mod standstill;
