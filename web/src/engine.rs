@@ -1,6 +1,7 @@
 //! The engine: drives a session over a port or against the built-in encoder, and keeps what
 //! the page shows. It runs in a dedicated worker, or on the page where it must.
 
+mod plot;
 mod run;
 
 use crate::{
@@ -103,6 +104,9 @@ impl Engine {
             ToEngine::StopSetting => state.stop(),
             ToEngine::ForgetSetting => state.tally.forget_progress(),
             ToEngine::Turn(speed) => state.turn(speed),
+            ToEngine::DemoNoise(counts) => state.demo_noise(counts),
+            ToEngine::Plot(request) => state.plot(&request),
+            ToEngine::Rest => state.rest(),
             ToEngine::Open { .. } | ToEngine::Demo { .. } | ToEngine::Close => {
                 state.asked = Some(message);
                 drop(state);

@@ -3,6 +3,7 @@
 //! The engine lives in a dedicated worker, or on the page where the browser has no serial in
 //! workers; either way these are the messages.
 
+use crate::plot::{Plot, PlotRequest, Rest};
 use encoderscope::sequence::Change;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +30,12 @@ pub enum ToEngine {
     ForgetSetting,
     /// Turn the shaft of the built-in encoder evenly, in revolutions per second.
     Turn(f64),
+    /// Let the angle of the built-in encoder be off by so many counts at most, at random.
+    DemoNoise(u32),
+    /// The page wants to plot.
+    Plot(PlotRequest),
+    /// The page wants to know how much the angle of a shaft at rest varies.
+    Rest,
     /// Stop and close the port.
     Close,
     /// The page has drawn the last snapshot and wants the next.
@@ -106,6 +113,10 @@ pub enum FromEngine {
     },
     /// The state of the link and what it has read.
     Snapshot(Box<Snapshot>),
+    /// What there is to plot.
+    Plot(Box<Plot>),
+    /// How much the angle varied within the last second, where anything was read.
+    Rest(Option<Box<Rest>>),
 }
 
 /// A port among those that the page has permission for.

@@ -1,9 +1,13 @@
 //! What the engine keeps of a link: counts, rates, the last reading and the last frames.
 
-use crate::message::{Counts, Entry, Lamp, Outcome, Progress, Setting, Shown, Snapshot};
+use crate::{
+    message::{Counts, Entry, Lamp, Outcome, Progress, Setting, Shown, Snapshot},
+    plot::Trail,
+};
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
+    history::Sample,
     reading::degrees,
     sequence::{Event, Holds},
     session::{Echo, Micros, Output},
@@ -43,6 +47,8 @@ pub struct Tally {
     /// Parts of a turn within the last second.
     parts: VecDeque<(Micros, f64)>,
     progress: Option<Progress>,
+    /// What the plot shows.
+    trail: Trail,
 }
 
 impl std::fmt::Debug for Tally {
@@ -70,11 +76,24 @@ impl Tally {
             log: VecDeque::new(),
             parts: VecDeque::new(),
             progress: None,
+            trail: Trail::new(now),
         }
+    }
+
+    /// What is kept for the plot.
+    #[must_use]
+    pub const fn trail(&self) -> &Trail {
+        &self.trail
+    }
+
+    /// The same, to be brought up to date.
+    pub const fn trail_mut(&mut self) -> &mut Trail {
+        &mut self.trail
     }
 
     /// A link is open.
     pub fn start(&mut self, decoder: Decoder) {
+        self.trail.start(decoder.profile().angle_bits);
         self.decoder = Some(decoder);
         self.changed = true;
     }
@@ -165,6 +184,7 @@ impl Tally {
     fn end(&mut self, changed: Option<bool>, text: String) {
         // What was read before says nothing about the shaft any more.
         self.parts.clear();
+        self.trail.jump();
         if let Some(progress) = &mut self.progress {
             progress.outcome = Some(Outcome { changed, text });
         }
@@ -200,7 +220,10 @@ impl Tally {
     pub fn take(&mut self, now: Micros, output: &Output) -> bool {
         match output {
             Output::Transmit(_) => return false,
-            Output::Silent { .. } => self.counts.silent += 1.0,
+            Output::Silent { .. } => {
+                self.counts.silent += 1.0;
+                self.trail.fail(now);
+            }
             Output::Skip { bytes, why } => {
                 self.counts.skipped += bytes.len() as f64;
                 self.remember(now, bytes, false, true, why.to_string());
@@ -254,6 +277,12 @@ impl Tally {
             }
             if let Some(shown) = frame.as_ref().and_then(shown) {
                 self.parts.push_back((now, shown.degrees / 360.0));
+                let sample = Sample {
+                    degrees: shown.degrees,
+                    speed: shown.speed,
+                    temperature: shown.temperature,
+                };
+                self.trail.take(now, shown.angle as u64, &sample);
             }
             self.counts.good += 1.0;
             self.last_good = Some(bytes.into());
@@ -265,6 +294,7 @@ impl Tally {
             }
         } else {
             self.counts.bad += 1.0;
+            self.trail.fail(now);
         }
         self.remember(now, bytes, true, sure, text.unwrap_or_default());
         good

@@ -2,7 +2,7 @@
 //!
 //! `pty-encoder --format t485 --angle-bits 23 turning=0.5`: profile parameters, then settings.
 //! Prints the path of the pty's other end, then takes a setting a line from standard input:
-//! `turning=R` (revolutions per second), `still=TURNS`, `status=BITS`, `error=0|1`,
+//! `turning=R` (revolutions per second), `still=TURNS`, `noise=COUNTS`, `status=BITS`, `error=0|1`,
 //! `warning=0|1`, `temperature=TENTHS`, and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
 //! replies). The end of standard input pulls the plug. What a stream sends while nobody reads is
@@ -88,6 +88,7 @@ mod native {
         match name {
             "turning" => emulator.shaft = Shaft::turning(emulator.shaft.start, value.parse()?),
             "still" => emulator.shaft = Shaft::still(value.parse()?),
+            "noise" => emulator.noise = value.parse()?,
             "status" => emulator.status = value.parse()?,
             "error" => emulator.error = value == "1",
             "warning" => emulator.warning = value == "1",

@@ -1,6 +1,6 @@
 //! The shell: areas, profile, theme, and the state that they share.
 
-use crate::{adapters, connection::Connection, console::Console, decode::Decode};
+use crate::{adapters, connection::Connection, console::Console, decode::Decode, plot::Feed};
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
@@ -53,6 +53,8 @@ pub(crate) struct App {
     /// What is wrong with the link that led here.
     pub(crate) link_fault: RwSignal<Option<String>>,
     pub(crate) snapshot: RwSignal<Snapshot>,
+    /// What the engine has answered to the plot.
+    pub(crate) feed: Feed,
     pub(crate) source: RwSignal<Source>,
     pub(crate) ports: RwSignal<Vec<PortId>>,
     pub(crate) port: RwSignal<Option<PortId>>,
@@ -70,13 +72,15 @@ pub(crate) struct App {
 impl App {
     fn new(make_worker: &js_sys::Function) -> Self {
         let snapshot = RwSignal::new(Snapshot::default());
+        let feed = Feed::new();
         let broken = RwSignal::new(false);
-        let connection = Connection::new(make_worker, snapshot, broken);
+        let connection = Connection::new(make_worker, snapshot, feed, broken);
         Self {
             area: RwSignal::new(Area::Console),
             profile: RwSignal::new(Format::T485.default_profile()),
             link_fault: RwSignal::new(None),
             snapshot,
+            feed,
             source: RwSignal::new(Source::Preview),
             ports: RwSignal::new(Vec::new()),
             port: RwSignal::new(None),

@@ -5,8 +5,10 @@ use crate::{
     link_panel::LinkPanel,
     live::{Angle, Status},
     log::Frames,
+    plot::PlotPanel,
     profile_editor::{Offer, ProfileEditor},
     setting::SettingPanel,
+    standstill::Standstill,
 };
 use encoderscope_web::{
     message::Link,
@@ -25,6 +27,7 @@ pub(crate) fn Console() -> impl IntoView {
             <Angle />
             <Status />
             {move || (!preview()).then(|| view! { <SettingPanel /> })}
+            {move || (!preview()).then(|| view! { <div class="plots"><PlotPanel /><Standstill /></div> })}
             <Frames />
         </div>
     }
