@@ -56,6 +56,8 @@ pub struct Emulator {
     decoder: Decoder,
     /// How the shaft moves.
     pub shaft: Shaft,
+    /// Counts by which the angle may be off to either side, at random.
+    pub noise: u32,
     /// What goes wrong on the way.
     pub faults: Faults,
     /// The status bits; those of the battery are added.
@@ -99,6 +101,7 @@ impl Emulator {
         Ok(Self {
             decoder: Decoder::new(profile)?,
             shaft,
+            noise: 0,
             faults: Faults::default(),
             status: 0,
             error: false,
@@ -264,7 +267,8 @@ impl Emulator {
     pub fn values(&self, now: Micros) -> Values {
         let profile = self.profile();
         let (turns, part) = split(self.scales.position(self.shaft.at(now), self.direction));
-        let codes = bits::codes(profile.angle_bits) as f64;
+        let codes = bits::codes(profile.angle_bits);
+        let (turns, angle) = shaft::noisy(now, self.noise, codes, turns, part);
         let (battery, battery_error, battery_warning) = self.battery_status();
         let shown = self.status | battery;
         let (status, alarm) = match (profile.format, profile.dialect) {
@@ -275,7 +279,7 @@ impl Emulator {
         let wide = bits::slice(turns as u64, 0, profile.turns_bits as usize);
         Values {
             turns: Some(wide as i64),
-            angle: Some((part * codes) as u64),
+            angle: Some(angle),
             error: Some(self.error || battery_error),
             warning: Some(self.warning || battery_warning),
             zero_default: Some(self.zero_default),

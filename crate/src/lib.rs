@@ -11,6 +11,7 @@
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
 //!   [`finder`]: which encoder is on the line; [`doctor`]: how the link is; [`emulator`]: the
 //!   encoder's side of it all;
+//! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`adapter`]: what USB adapters can do.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
@@ -36,6 +37,7 @@ pub mod explain;
 pub mod finder;
 pub mod format;
 pub mod framing;
+pub mod history;
 pub mod layout;
 pub mod model;
 pub mod profile;
@@ -43,3 +45,4 @@ pub mod reading;
 pub mod record;
 pub mod sequence;
 pub mod session;
+pub mod standstill;

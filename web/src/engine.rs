@@ -3,6 +3,7 @@
 
 mod ending;
 mod line;
+mod plot;
 mod run;
 mod talk;
 mod wishes;
@@ -108,6 +109,8 @@ impl Engine {
             ToEngine::Supply(supply) => state.supply(supply),
             ToEngine::Turn(speed) => state.turn(speed),
             ToEngine::Knobs(knobs) => state.adjust(knobs),
+            ToEngine::Plot(request) => state.plot(&request),
+            ToEngine::Rest => state.rest(),
             ToEngine::Open { .. }
             | ToEngine::Demo { .. }
             | ToEngine::Find { .. }

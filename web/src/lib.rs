@@ -7,5 +7,6 @@ pub mod browser;
 pub mod engine;
 pub mod link;
 pub mod message;
+pub mod plot;
 pub mod serial;
 pub mod tally;

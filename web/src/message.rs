@@ -3,6 +3,7 @@
 //! The engine lives in a dedicated worker, or on the page where the browser has no serial in
 //! workers; either way these are the messages.
 
+use crate::plot::{Plot, PlotRequest, Rest};
 use encoderscope::sequence::Change;
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +58,10 @@ pub enum ToEngine {
     Turn(f64),
     /// What the built-in encoder reports, and what goes wrong on its line.
     Knobs(Knobs),
+    /// The page wants to plot.
+    Plot(PlotRequest),
+    /// The page wants to know how much the angle of a shaft at rest varies.
+    Rest,
     /// Stop and close the port.
     Close,
     /// The page has drawn the last snapshot and wants the next.
@@ -110,6 +115,8 @@ pub struct Cell {
 /// What the built-in encoder reports, and what goes wrong on its line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Knobs {
+    /// Counts by which the angle may be off to either side, at random.
+    pub noise: u32,
     /// The six status bits.
     pub status: u8,
     /// The position is not valid.
@@ -199,6 +206,10 @@ pub enum FromEngine {
     },
     /// The state of the link and what it has read.
     Snapshot(Box<Snapshot>),
+    /// What there is to plot.
+    Plot(Box<Plot>),
+    /// How much the angle varied within the last second, where anything was read.
+    Rest(Option<Box<Rest>>),
 }
 
 /// A port among those that the page has permission for.

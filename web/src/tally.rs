@@ -1,73 +1,33 @@
 //! What the engine keeps of a link: counts, rates, the last reading and the last frames.
 
+mod asides;
 mod log;
 mod pace;
+mod settings;
+mod shaft;
 
 use crate::{
-    link::query,
-    message::{
-        Cell, Counts, Device, Found, Lamp, LogFilter, Outcome, Progress, Search, Setting, Shown,
-        Snapshot, Trial,
-    },
+    message::{Cell, Counts, Lamp, LogFilter, Progress, Search, Shown, Snapshot},
+    plot::Trail,
 };
+use asides::Kept;
+pub use asides::Who;
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
-    finder::Finder,
+    history::Sample,
     reading::degrees,
-    sequence::{Event, Holds},
     session::{Echo, Micros, Output},
 };
 use log::{Kind, Log, Seen};
 use pace::Pace;
+use shaft::Place;
 use std::collections::VecDeque;
 
 /// Replies over which latencies are sorted.
 const LATENCIES: usize = 512;
 /// The rate is taken over this time.
 const RATE_OVER: Micros = 1_000_000;
-
-/// The speed is taken over this time.
-const SPEED_OVER: Micros = 200_000;
-
-/// Who sends what reading does not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Who {
-    /// A guided setting.
-    Setting,
-    /// A scan or a search.
-    Scan,
-    /// The user.
-    Hand,
-}
-
-impl Who {
-    const fn text(self) -> &'static str {
-        match self {
-            Self::Setting => "setting",
-            Self::Scan => "scan",
-            Self::Hand => "by hand",
-        }
-    }
-}
-
-/// Where the shaft was.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    at: Micros,
-    /// Part of a turn.
-    part: f64,
-    turns: Option<f64>,
-}
-
-/// What is kept of a device of a BUS.
-struct Kept {
-    address: u8,
-    reading: Option<Shown>,
-    good: f64,
-    bad: f64,
-    at: Option<Micros>,
-}
 
 /// What is kept of a link.
 pub struct Tally {
@@ -91,6 +51,8 @@ pub struct Tally {
     scan: Option<String>,
     search: Option<Search>,
     memory: Option<Cell>,
+    /// What the plot shows.
+    trail: Trail,
 }
 
 impl std::fmt::Debug for Tally {
@@ -123,11 +85,24 @@ impl Tally {
             scan: None,
             search: None,
             memory: None,
+            trail: Trail::new(now),
         }
+    }
+
+    /// What is kept for the plot.
+    #[must_use]
+    pub const fn trail(&self) -> &Trail {
+        &self.trail
+    }
+
+    /// The same, to be brought up to date.
+    pub const fn trail_mut(&mut self) -> &mut Trail {
+        &mut self.trail
     }
 
     /// A link is open, or goes on with another device.
     pub fn start(&mut self, decoder: Decoder) {
+        self.trail.start(decoder.profile().angle_bits);
         self.decoder = Some(decoder);
         self.last_good = None;
         self.seen_bits.clear();
@@ -175,228 +150,6 @@ impl Tally {
         self.echo = echo;
     }
 
-    /// A sequence begins.
-    pub fn begin(&mut self, setting: Setting, total: usize) {
-        let before = self
-            .decoder
-            .as_ref()
-            .zip(self.last_good.as_ref())
-            .and_then(|(decoder, bytes)| shown(&frame_of(decoder, bytes, true)?));
-        self.progress = Some(Progress {
-            setting,
-            done: 0,
-            total: total as u32,
-            count: None,
-            before,
-            held: self.held(setting),
-            outcome: None,
-        });
-        self.changed = true;
-    }
-
-    /// A cell of the EEPROM has been asked for.
-    pub const fn ask_memory(&mut self, address: u8) {
-        self.memory = Some(Cell {
-            address,
-            data: None,
-        });
-        self.changed = true;
-    }
-
-    /// What the cell that a setting writes held when it was read last.
-    fn held(&self, setting: Setting) -> Option<u8> {
-        match (setting, self.memory) {
-            (Setting::Memory { address, .. }, Some(cell)) if cell.address == address => cell.data,
-            _ => None,
-        }
-    }
-
-    /// What the cell that was to be written holds now.
-    fn settle_memory(&mut self, holds: Holds) {
-        let setting = self.progress.as_ref().map(|progress| progress.setting);
-        if let Some(Setting::Memory { address, data }) = setting {
-            let data = match holds {
-                Holds::New => Some(data),
-                Holds::Old => self.held(Setting::Memory { address, data }),
-                Holds::Unknown => None,
-            };
-            self.memory = Some(Cell { address, data });
-        }
-    }
-
-    /// A sequence could not begin.
-    pub fn refuse(&mut self, setting: Setting, why: &str) {
-        self.begin(setting, 0);
-        self.end(Some(false), why.into());
-    }
-
-    /// Bytes have come in that are not for the session.
-    pub fn received_aside(&mut self, now: Micros, bytes: &[u8]) {
-        self.counts.set += bytes.len() as f64;
-        self.remember(now, bytes, Kind::Aside, String::new());
-    }
-
-    /// Bytes are sent that the session did not ask for.
-    pub fn sent(&mut self, now: Micros, bytes: &[u8], who: Who) {
-        self.pace.request();
-        self.remember(now, bytes, Kind::Sent, who.text().into());
-    }
-
-    /// A scan is over.
-    pub fn scanned(&mut self, addresses: &[u8], disturbed: &[u8]) {
-        self.devices = addresses
-            .iter()
-            .map(|address| Kept {
-                address: *address,
-                reading: None,
-                good: 0.0,
-                bad: 0.0,
-                at: None,
-            })
-            .collect();
-        let found = match addresses.len() {
-            0 => "No device answers.".to_owned(),
-            1 => "One device answers.".to_owned(),
-            count => format!("{count} devices answer."),
-        };
-        let strange: Vec<String> = disturbed.iter().map(ToString::to_string).collect();
-        self.scan = Some(match strange.is_empty() {
-            true => found,
-            false => format!(
-                "{found} What answers at {} is damaged: a disturbed device, or two with one address.",
-                strange.join(", ")
-            ),
-        });
-        self.changed = true;
-    }
-
-    /// One device alone is read again.
-    pub fn forget_devices(&mut self) {
-        self.devices.clear();
-        self.scan = None;
-        self.changed = true;
-    }
-
-    /// The addresses of the devices that are read.
-    #[must_use]
-    pub fn addresses(&self) -> Vec<u8> {
-        self.devices.iter().map(|device| device.address).collect()
-    }
-
-    /// How far a search is.
-    pub fn searched(&mut self, finder: &Finder) {
-        let trials = finder.trials().iter().map(|trial| Trial {
-            baud: trial.baud,
-            format: trial.format.map(|format| format.name().into()),
-            requests: trial.requests,
-            bytes: trial.bytes as f64,
-        });
-        let found = finder.found().iter().map(|found| Found {
-            profile: query(&found.profile),
-            verdict: found.verdict.name().into(),
-            evidence: found.evidence.clone(),
-            narrowest: found.narrowest,
-        });
-        self.search = Some(Search {
-            trials: trials.collect(),
-            found: found.collect(),
-            done: false,
-        });
-        self.changed = true;
-    }
-
-    /// Nothing goes on any more on this link.
-    pub const fn interrupted(&mut self) {
-        if let Some(search) = &mut self.search {
-            search.done = true;
-        }
-        self.changed = true;
-    }
-
-    /// What a sequence says.
-    pub fn follow(&mut self, event: &Event) {
-        self.changed = true;
-        match event {
-            Event::Transmit(_) => {}
-            Event::Progress { done, count, .. } => {
-                if let Some(progress) = &mut self.progress {
-                    progress.done = *done as u32;
-                    progress.count = count.or(progress.count);
-                }
-            }
-            Event::Ended { stop, holds, .. } => {
-                self.settle_memory(*holds);
-                let changed = match holds {
-                    Holds::New => Some(true),
-                    Holds::Old => Some(false),
-                    Holds::Unknown => None,
-                };
-                let text = match stop {
-                    Some(stop) => format!("Stopped: {stop}; {holds}."),
-                    None => format!("Done: {holds}."),
-                };
-                self.end(changed, text);
-            }
-        }
-    }
-
-    fn end(&mut self, changed: Option<bool>, text: String) {
-        // What was read before says nothing about the shaft any more.
-        self.places.clear();
-        if let Some(progress) = &mut self.progress {
-            progress.outcome = Some(Outcome { changed, text });
-        }
-        self.changed = true;
-    }
-
-    /// The outcome has been read.
-    pub fn forget_progress(&mut self) {
-        self.progress = None;
-        self.changed = true;
-    }
-
-    /// How far the shaft has moved within the last second, in turns, once that is known.
-    #[must_use]
-    pub fn moved(&self, now: Micros) -> Option<f64> {
-        let first = *self.places.front()?;
-        let last = self.places.back()?.at;
-        let fresh = now.saturating_sub(last) < RATE_OVER / 4;
-        if !fresh || last - first.at < RATE_OVER * 9 / 10 {
-            return None;
-        }
-        let away = self.places.iter().map(|place| {
-            let apart = place.part - first.part;
-            apart - apart.round()
-        });
-        let (low, high) = away.fold((0.0f64, 0.0f64), |(low, high), apart| {
-            (low.min(apart), high.max(apart))
-        });
-        Some(high - low)
-    }
-
-    /// How fast the shaft turns, in revolutions per second; `None` where it may have turned by
-    /// half a turn and more from one frame to the next.
-    fn turning(&self) -> Option<f64> {
-        let last = *self.places.back()?;
-        let since = last.at.saturating_sub(SPEED_OVER);
-        let recent = self.places.iter().filter(|place| place.at >= since);
-        let first = *recent.clone().next()?;
-        let apart = |one: &Place, next: &Place| {
-            let part = next.part - one.part;
-            match (one.turns, next.turns) {
-                // A counter that begins again from 0 is not a turn backwards.
-                (Some(one), Some(next)) if (next - one).abs() < 1000.0 => Some(next - one + part),
-                _ => Some(part - part.round()).filter(|part| part.abs() < 0.4),
-            }
-        };
-        let mut moved = 0.0;
-        for (one, next) in recent.clone().zip(recent.skip(1)) {
-            moved += apart(one, next)?;
-        }
-        let took = last.at - first.at;
-        (took >= SPEED_OVER / 2).then(|| moved * 1e6 / took as f64)
-    }
-
     /// Counts what the session says; returns whether it is a good frame.
     pub fn take(&mut self, now: Micros, output: &Output) -> bool {
         match output {
@@ -407,6 +160,7 @@ impl Tally {
             Output::Silent { .. } => {
                 self.counts.silent += 1.0;
                 self.pace.frame(now, false);
+                self.trail.fail(now);
             }
             Output::Skip { bytes, why } => {
                 self.counts.skipped += bytes.len() as f64;
@@ -462,7 +216,10 @@ impl Tally {
                     self.latencies.pop_front();
                 }
             }
-            _ => self.counts.bad += 1.0,
+            _ => {
+                self.counts.bad += 1.0;
+                self.trail.fail(now);
+            }
         }
         self.decoder = Some(decoder);
         self.remember(
@@ -496,24 +253,14 @@ impl Tally {
                 part: shown.degrees / 360.0,
                 turns: shown.turns,
             });
+            let sample = Sample {
+                degrees: shown.degrees,
+                speed: shown.speed,
+                temperature: shown.temperature,
+            };
+            self.trail.take(now, shown.angle as u64, &sample);
         }
         self.last_good = Some(frame.bits.bytes().into());
-    }
-
-    /// A frame of one device among several.
-    fn take_device(&mut self, now: Micros, frame: &Frame<'_>, good: bool) {
-        let address = frame.values().address;
-        let mut devices = self.devices.iter_mut();
-        if let Some(device) = devices.find(|device| Some(device.address) == address) {
-            match good {
-                true => {
-                    device.good += 1.0;
-                    device.reading = shown(frame);
-                    device.at = Some(now);
-                }
-                false => device.bad += 1.0,
-            }
-        }
     }
 
     fn remember(&mut self, at: Micros, bytes: &[u8], kind: Kind, text: String) {
@@ -632,16 +379,4 @@ fn shown(frame: &Frame<'_>) -> Option<Shown> {
 fn is_own(decoder: &Decoder, frame: &Frame<'_>) -> bool {
     let address = frame.values().address;
     address.is_none_or(|address| u32::from(address) == decoder.profile().address)
-}
-
-impl Kept {
-    fn shown(&self, now: Micros) -> Device {
-        Device {
-            address: self.address,
-            reading: self.reading,
-            good: self.good,
-            bad: self.bad,
-            fresh: self.at.is_some_and(|at| now < at + RATE_OVER),
-        }
-    }
 }

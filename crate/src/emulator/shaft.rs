@@ -92,3 +92,20 @@ pub(super) fn split(turns: f64) -> (i64, f64) {
         (whole, part)
     }
 }
+
+/// Turns, and counts of so many `codes` a turn, off by up to `noise` counts. The noise follows
+/// from the time alone, so that the same moment is always read the same.
+pub(super) fn noisy(now: Micros, noise: u32, codes: u128, turns: i64, part: f64) -> (i64, u64) {
+    let angle = (part * codes as f64) as u64;
+    if noise == 0 {
+        return (turns, angle);
+    }
+    // The multiplier of Knuth's MMIX; the high half of what it gives is random enough here.
+    let draw = |seed: u64| seed.wrapping_mul(6_364_136_223_846_793_005) / 0x1_0000_0000;
+    let random = draw(draw(now.wrapping_add(1)));
+    let off = i128::from(random % (2 * u64::from(noise) + 1)) - i128::from(noise);
+    let codes = i128::try_from(codes).unwrap_or(i128::MAX);
+    let angle = i128::from(angle) + off;
+    let over = angle.div_euclid(codes) as i64;
+    (turns.saturating_add(over), angle.rem_euclid(codes) as u64)
+}

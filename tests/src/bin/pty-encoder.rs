@@ -2,8 +2,8 @@
 //!
 //! `pty-encoder --format t485 --angle-bits 23 turning=0.5`: profile parameters, then settings.
 //! Prints the path of the pty's other end, then takes a setting a line from standard input:
-//! `turning=R` (revolutions per second), `still=TURNS`, `status=BITS`, `error=0|1`,
-//! `warning=0|1`, `temperature=TENTHS`, the supply `power=off|on|set|reset`
+//! `turning=R` (revolutions per second), `still=TURNS`, `noise=COUNTS`, `status=BITS`,
+//! `error=0|1`, `warning=0|1`, `temperature=TENTHS`, the supply `power=off|on|set|reset`
 //! (with a zero input of the IP-75 at 0 V), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
 //! replies). `exclusive=0` lets another program open the pty, as the last close of a real port does;
@@ -91,6 +91,7 @@ mod native {
         match name {
             "turning" => emulator.shaft = Shaft::turning(emulator.shaft.start, value.parse()?),
             "still" => emulator.shaft = Shaft::still(value.parse()?),
+            "noise" => emulator.noise = value.parse()?,
             "status" => emulator.status = value.parse()?,
             "error" => emulator.error = value == "1",
             "warning" => emulator.warning = value == "1",

@@ -167,6 +167,7 @@ impl State {
     /// Lets the built-in encoder report something, or its line fail.
     pub(super) fn adjust(&mut self, knobs: Knobs) {
         if let Some(emulator) = self.built_in() {
+            emulator.noise = knobs.noise;
             emulator.status = knobs.status;
             emulator.error = knobs.error;
             emulator.warning = knobs.warning;

@@ -1,7 +1,8 @@
 //! The shell: areas, profile, theme, and the state that they share.
 
 use crate::{
-    adapters, connection::Connection, console::Console, decode::Decode, theme::ThemeSwitch,
+    adapters, connection::Connection, console::Console, decode::Decode, plot::Feed,
+    theme::ThemeSwitch,
 };
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
@@ -56,6 +57,8 @@ pub(crate) struct App {
     /// What is wrong with the link that led here.
     pub(crate) link_fault: RwSignal<Option<String>>,
     pub(crate) snapshot: RwSignal<Snapshot>,
+    /// What the engine has answered to the plot.
+    pub(crate) feed: Feed,
     pub(crate) source: RwSignal<Source>,
     pub(crate) ports: RwSignal<Vec<PortId>>,
     pub(crate) port: RwSignal<Option<PortId>>,
@@ -77,13 +80,15 @@ pub(crate) struct App {
 impl App {
     fn new(make_worker: &js_sys::Function) -> Self {
         let snapshot = RwSignal::new(Snapshot::default());
+        let feed = Feed::new();
         let broken = RwSignal::new(false);
-        let connection = Connection::new(make_worker, snapshot, broken);
+        let connection = Connection::new(make_worker, snapshot, feed, broken);
         Self {
             area: RwSignal::new(Area::Console),
             profile: RwSignal::new(Format::T485.default_profile()),
             link_fault: RwSignal::new(None),
             snapshot,
+            feed,
             source: RwSignal::new(Source::Preview),
             ports: RwSignal::new(Vec::new()),
             port: RwSignal::new(None),

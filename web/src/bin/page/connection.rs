@@ -1,6 +1,7 @@
 //! The page's end of the engine: a dedicated worker where it can reach serial ports, else an
 //! engine on the page itself.
 
+use crate::plot::Feed;
 use encoderscope_web::{
     engine::Engine,
     message::{FromEngine, Snapshot, ToEngine},
@@ -15,6 +16,7 @@ use web_sys::{MessageEvent, Worker};
 #[derive(Clone)]
 pub(crate) struct Connection {
     inner: Rc<RefCell<Inner>>,
+    feed: Feed,
 }
 
 struct Inner {
@@ -27,11 +29,12 @@ struct Inner {
 }
 
 impl Connection {
-    /// Starts the worker; snapshots go into `snapshot`.
+    /// Starts the worker; snapshots go into `snapshot`, answers to the plot into `feed`.
     /// A worker that breaks down is replaced by an engine on the page, and `broken` is set.
     pub(crate) fn new(
         make_worker: &js_sys::Function,
         snapshot: RwSignal<Snapshot>,
+        feed: Feed,
         broken: RwSignal<bool>,
     ) -> Self {
         let worker: Option<Worker> = make_worker
@@ -45,6 +48,7 @@ impl Connection {
                 known: false,
                 waiting: Vec::new(),
             })),
+            feed,
         };
         match worker {
             Some(worker) => connection.listen(&worker, snapshot, broken),
@@ -78,6 +82,8 @@ impl Connection {
                 self.run_here(snapshot);
             }
             FromEngine::Hello { .. } => self.ready(),
+            FromEngine::Plot(plot) => self.feed.plot.set(*plot),
+            FromEngine::Rest(rest) => self.feed.rest.set(rest.map(|rest| *rest)),
             FromEngine::Snapshot(new) => {
                 snapshot.set(*new);
                 // The next one is wanted when this one has been drawn.

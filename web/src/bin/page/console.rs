@@ -7,8 +7,10 @@ use crate::{
     link_panel::LinkPanel,
     live::{Angle, Status},
     log::Frames,
+    plot::PlotPanel,
     profile_editor::{Offer, ProfileEditor},
     setting::SettingPanel,
+    standstill::Standstill,
     zero_wire::ZeroWire,
 };
 use encoderscope_web::{
@@ -35,6 +37,7 @@ pub(crate) fn Console() -> impl IntoView {
                     {move || (!preview()).then(|| view! { <SettingPanel /> <ZeroWire /> })}
                 </div>
                 {move || (!preview()).then(|| view! { <DevicesPanel /> })}
+                {move || (!preview()).then(|| view! { <div class="plots"><PlotPanel /><Standstill /></div> })}
                 <Frames />
             </div>
         </div>

@@ -84,15 +84,27 @@ fn Reports(app: App) -> impl IntoView {
         <Check name="warning" on=Signal::derive(move || knobs.get().warning) change=move |on| set(&|knobs| knobs.warning = on) />
         <Check name="silent" on=Signal::derive(move || knobs.get().silent) change=move |on| set(&|knobs| knobs.silent = on) />
         <Check name="echo" on=Signal::derive(move || knobs.get().echo) change=move |on| set(&|knobs| knobs.echo = on) />
-        <Share
+        <Slider
             name="noise"
+            title="Noise of the angle"
+            unit="counts"
+            most=8
+            value=Signal::derive(move || knobs.get().noise)
+            change=move |counts| set(&|knobs| knobs.noise = counts)
+        />
+        <Slider
+            name="flip"
             title="Bytes with a wrong bit"
+            unit="of 1000"
+            most=200
             value=Signal::derive(move || knobs.get().flip)
             change=move |share| set(&|knobs| knobs.flip = share)
         />
-        <Share
+        <Slider
             name="lost"
             title="Replies lost"
+            unit="of 1000"
+            most=200
             value=Signal::derive(move || knobs.get().lose)
             change=move |share| set(&|knobs| knobs.lose = share)
         />
@@ -113,22 +125,22 @@ fn Check(
     }
 }
 
-/// A share of 1000, shown in per cent.
 #[component]
-fn Share(
+fn Slider(
     name: &'static str,
     title: &'static str,
+    unit: &'static str,
+    most: u32,
     value: Signal<u32>,
     change: impl Fn(u32) + Copy + 'static,
 ) -> impl IntoView {
     view! {
         <label class="shaft">
-            <span>{title} " " <small>{move || format!("{:.1} %", f64::from(value.get()) / 10.0)}</small></span>
+            <span>{title} " " <small>{move || format!("{} {unit}", value.get())}</small></span>
             <input
                 type="range"
                 min="0"
-                max="200"
-                step="5"
+                max=most.to_string()
                 name=format!("demo-{name}")
                 prop:value=move || value.get().to_string()
                 on:input:target=move |event| change(event.target().value().parse().unwrap_or(0))

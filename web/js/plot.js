@@ -1,0 +1,177 @@
+// Charts for the page; what is drawn and what a gesture means, the page decides.
+import uPlot from 'uplot';
+
+const sync = uPlot.sync('plot');
+
+const tenths = [1e-5, 1e-4, 1e-3, 1e-2, 1e-1].flatMap((unit) => [unit, 2 * unit, 5 * unit]);
+const seconds = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600, 7200, 21600, 86400];
+const degrees = [1, 2, 5, 10, 15, 30, 45, 90, 180, 360];
+
+const token = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+const decimals = (step) => Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+
+const figure = (value, step) => value.toFixed(decimals(step)).replace(/^-(0\.?0*$)?/, (_, zero) => zero ?? '−');
+
+/** Seconds below a minute, else minutes or hours as on a clock. */
+const clock = (at, step, most) => {
+  if (most < 60) return figure(at, step);
+  const two = (number) => String(Math.floor(number)).padStart(2, '0');
+  const rest = (at % 60).toFixed(decimals(step)).padStart(decimals(step) ? 3 + decimals(step) : 2, '0');
+  const minutes = Math.floor(at / 60);
+  return most < 3600 ? `${minutes}:${rest}` : `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${rest}`;
+};
+
+/** Lines between neighbours, none over a gap, and a dot where a point stands alone. */
+const paths = (u, index) => {
+  const [times, values] = [u.data[0], u.data[index]];
+  const stroke = new Path2D();
+  let drawing = false;
+  for (let at = 0; at < times.length; at += 1) {
+    const value = values[at];
+    if (value !== null) {
+      const [x, y] = [u.valToPos(times[at], 'x', true), u.valToPos(value, 'y', true)];
+      if (!drawing) stroke.moveTo(x, y);
+      stroke.lineTo(x, y);
+    }
+    drawing = value !== null;
+  }
+  return { stroke, fill: null, clip: null, band: null, gaps: null, flags: 0 };
+};
+
+const axis = (options) => ({
+  stroke: () => token('--dim'),
+  font: `11px ${token('--mono')}`,
+  grid: { stroke: () => token('--line'), width: 1 },
+  ticks: { show: false },
+  ...options,
+});
+
+class Chart {
+  #u;
+  #x = [0, 1];
+  #y = [0, 1];
+  #mark = NaN;
+  #watched;
+
+  /** `tell(what, a, b)` is called with `zoom`, `cursor`, `mark`, `live` and `width`. */
+  constructor(element, color, whole, tell) {
+    this.#u = new uPlot(this.#options(element, color, whole, tell), [[0, 1], [null, null]], element);
+    const over = this.#u.over;
+    over.addEventListener('click', () => tell('mark', this.#u.posToVal(this.#u.cursor.left, 'x'), 0));
+    element.addEventListener('keydown', (event) => this.#key(event, tell));
+    const resized = new ResizeObserver(() => {
+      this.#u.setSize({ width: element.clientWidth, height: element.clientHeight });
+      tell('width', this.columns(), 0);
+    });
+    resized.observe(element);
+    const themed = new MutationObserver(() => this.#u.redraw(false));
+    themed.observe(document.documentElement, { attributeFilter: ['data-theme'] });
+    this.#watched = [resized, themed];
+  }
+
+  #options(element, color, whole, tell) {
+    return {
+      width: Math.max(element.clientWidth, 100),
+      height: Math.max(element.clientHeight, 60),
+      padding: [8, 6, 0, 0],
+      legend: { show: false },
+      scales: { x: { time: false, range: () => this.#x }, y: { range: () => this.#y } },
+      series: [{}, { stroke: () => token(color), width: 1.4, cap: 'round', points: { show: false }, paths }],
+      axes: [
+        axis({
+          size: 26,
+          space: 70,
+          incrs: [...tenths, ...seconds],
+          values: (u, splits, index, space, step) => splits.map((at) => clock(at, step, u.scales.x.max)),
+        }),
+        axis({
+          size: 58,
+          space: 28,
+          ...(whole && { incrs: [...tenths, ...degrees] }),
+          values: (u, splits, index, space, step) => splits.map((value) => figure(value, step)),
+        }),
+      ],
+      cursor: {
+        y: false,
+        points: { show: false },
+        drag: { x: true, y: false, setScale: false },
+        sync: { key: sync.key, setSeries: false, scales: ['x', null] },
+        bind: { dblclick: () => () => tell('live', 0, 0) },
+      },
+      hooks: {
+        setCursor: [
+          (u) => tell('cursor', u.cursor.left >= 0 ? u.posToVal(u.cursor.left, 'x') : NaN, 0),
+        ],
+        setSelect: [
+          (u) => {
+            const { left, width } = u.select;
+            if (width < 3) return;
+            u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+            tell('zoom', u.posToVal(left, 'x'), u.posToVal(left + width, 'x'));
+          },
+        ],
+        draw: [(u) => this.#drawMark(u)],
+      },
+    };
+  }
+
+  #drawMark({ ctx, bbox, valToPos }) {
+    const x = valToPos(this.#mark, 'x', true);
+    if (!(x >= bbox.left && x <= bbox.left + bbox.width)) return;
+    ctx.save();
+    ctx.strokeStyle = token('--ink');
+    ctx.lineWidth = uPlot.pxRatio;
+    ctx.beginPath();
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.stroke();
+    ctx.restore();
+  }
+
+  #key(event, tell) {
+    const u = this.#u;
+    const step = event.shiftKey ? 20 : 2;
+    const move = { ArrowLeft: -step, ArrowRight: step }[event.key];
+    const width = this.columns();
+    if (move !== undefined) {
+      const left = u.cursor.left >= 0 ? u.cursor.left + move : width / 2;
+      u.setCursor({ left: Math.min(Math.max(left, 0), width), top: 0 }, true, true);
+    } else if (event.key === 'Enter' && u.cursor.left >= 0) {
+      tell('mark', u.posToVal(u.cursor.left, 'x'), 0);
+    } else if (event.key === 'Escape') {
+      u.setCursor({ left: -10, top: -10 }, true, true);
+      tell('mark', NaN, 0);
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+
+  /** Width of what is drawn, in CSS pixels. */
+  columns() {
+    return this.#u.over.clientWidth;
+  }
+
+  /** Draws values over times; what is no number is a gap. */
+  draw(times, values, from, to, low, high) {
+    this.#x = [from, to];
+    this.#y = [low, high];
+    const drawn = Array.from(values, (value) => (Number.isNaN(value) ? null : value));
+    this.#u.setData(drawn.length ? [times.slice(), drawn] : [[from, to], [null, null]]);
+  }
+
+  /** Draws a line at a time; at none where it is no number. */
+  mark(at) {
+    this.#mark = at;
+    this.#u.redraw(false);
+  }
+
+  remove() {
+    for (const observer of this.#watched) observer.disconnect();
+    this.#u.destroy();
+  }
+}
+
+/** A chart in an element; `color` is a token of the style sheet. */
+export const chart = (element, color, whole, tell) => new Chart(element, color, whole, tell);

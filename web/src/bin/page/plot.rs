@@ -1,0 +1,443 @@
+//! The plot: angle, speed, temperature and errors over time.
+
+mod chart;
+
+pub(crate) use chart::Charts;
+
+use crate::app::App;
+use chart::{ChartView, Height, text, value_at};
+use encoderscope_web::{
+    message::ToEngine,
+    plot::{Plot, PlotRequest, Quantity, Rest, Stretch},
+};
+use leptos::prelude::*;
+use std::time::Duration;
+
+/// How often the page asks.
+const ASK: Duration = Duration::from_millis(100);
+/// The standstill panel is brought up to date every second time.
+const ASK_REST: u32 = 2;
+/// Times after which an answer is no longer waited for.
+const PATIENCE: u32 = 10;
+
+/// What the engine has answered.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Feed {
+    pub(crate) plot: RwSignal<Plot>,
+    pub(crate) rest: RwSignal<Option<Rest>>,
+}
+
+impl Feed {
+    pub(crate) fn new() -> Self {
+        Self {
+            plot: RwSignal::new(Plot::default()),
+            rest: RwSignal::new(None),
+        }
+    }
+}
+
+/// How much of the past is shown while it goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Span {
+    Seconds20,
+    Minutes2,
+    Minutes10,
+    Hour,
+    All,
+}
+
+impl Span {
+    const ALL: [Self; 5] = [
+        Self::Seconds20,
+        Self::Minutes2,
+        Self::Minutes10,
+        Self::Hour,
+        Self::All,
+    ];
+
+    const fn title(self) -> &'static str {
+        match self {
+            Self::Seconds20 => "20 s",
+            Self::Minutes2 => "2 min",
+            Self::Minutes10 => "10 min",
+            Self::Hour => "1 h",
+            Self::All => "All",
+        }
+    }
+
+    const fn stretch(self) -> Stretch {
+        match self {
+            Self::Seconds20 => Stretch::Last(20.0),
+            Self::Minutes2 => Stretch::Last(120.0),
+            Self::Minutes10 => Stretch::Last(600.0),
+            Self::Hour => Stretch::Last(3600.0),
+            Self::All => Stretch::All,
+        }
+    }
+}
+
+/// What the plot shows and how.
+#[derive(Clone, Copy)]
+struct View {
+    feed: Feed,
+    app: App,
+    span: RwSignal<Span>,
+    /// The time that is looked at while the plot is paused.
+    held: RwSignal<Option<(f64, f64)>>,
+    shown: RwSignal<Vec<Quantity>>,
+    height: RwSignal<Height>,
+    /// Where the pointer is.
+    cursor: RwSignal<Option<f64>>,
+    mark: RwSignal<Option<f64>>,
+    columns: RwSignal<u32>,
+}
+
+impl View {
+    fn new(app: App) -> Self {
+        Self {
+            feed: app.feed,
+            app,
+            span: RwSignal::new(Span::Seconds20),
+            held: RwSignal::new(None),
+            shown: RwSignal::new(remembered()),
+            height: RwSignal::new(Height::Whole),
+            cursor: RwSignal::new(None),
+            mark: RwSignal::new(None),
+            columns: RwSignal::new(600),
+        }
+    }
+
+    fn request(&self) -> PlotRequest {
+        PlotRequest {
+            stretch: match self.held.get() {
+                Some((from, to)) => Stretch::Between(from, to),
+                None => self.span.get().stretch(),
+            },
+            columns: self.columns.get(),
+            quantities: self.shown.get(),
+        }
+    }
+
+    /// A gesture on a chart.
+    fn told(&self, what: &str, a: f64, b: f64) {
+        let time = Some(a).filter(|at| !at.is_nan());
+        match what {
+            "zoom" => self.held.set(Some((a, b))),
+            "cursor" if self.cursor.get_untracked() != time => self.cursor.set(time),
+            "mark" => self.mark.set(time),
+            "live" => self.go_on(),
+            "width" if a >= 1.0 => self.columns.set(a as u32),
+            _ => {}
+        }
+    }
+
+    fn pause(&self) {
+        let ends = self.feed.plot.with_untracked(|plot| (plot.from, plot.to));
+        self.held.set(Some(ends));
+    }
+
+    fn go_on(&self) {
+        self.held.set(None);
+        self.mark.set(None);
+    }
+
+    /// Looks at another time: `scale` times as long, moved by `shift` of its length.
+    fn look(&self, scale: f64, shift: f64) {
+        let ends = self.feed.plot.with_untracked(|plot| (plot.from, plot.to));
+        let (from, to) = self.held.get_untracked().unwrap_or(ends);
+        let half = (to - from) / 2.0 * scale;
+        let middle = (from + to) / 2.0 + (to - from) * shift;
+        self.held.set(Some((middle - half, middle + half)));
+    }
+
+    fn toggle(&self, quantity: Quantity) {
+        self.shown.update(|shown| {
+            let wanted = |other: &Quantity| shown.contains(other) != (*other == quantity);
+            *shown = Quantity::ALL.into_iter().filter(wanted).collect();
+        });
+        remember(&self.shown.get_untracked());
+    }
+
+    fn is_shown(&self, quantity: Quantity) -> bool {
+        self.shown.with(|shown| shown.contains(&quantity))
+    }
+
+    /// Degrees in a count of the encoder.
+    fn count(&self) -> f64 {
+        let bits = self.app.snapshot.with_untracked(|snapshot| {
+            let reading = snapshot.reading.as_ref();
+            reading.map_or(24, |reading| reading.angle_bits)
+        });
+        360.0 / 2f64.powi(bits as i32)
+    }
+
+    /// The time and the values at the cursor; with a mark, how far they are from it.
+    fn readout(&self) -> Vec<(&'static str, String)> {
+        let (cursor, mark) = (self.cursor.get(), self.mark.get());
+        let Some(at) = cursor.or(mark) else {
+            return Vec::new();
+        };
+        self.feed.plot.with(|plot| {
+            let traces = plot.traces.iter();
+            match (cursor, mark) {
+                (Some(cursor), Some(mark)) => {
+                    let time = seconds_text(cursor - mark);
+                    let apart = traces.filter_map(|trace| {
+                        let apart = difference(
+                            trace.quantity,
+                            value_at(trace, cursor)?,
+                            value_at(trace, mark)?,
+                        );
+                        Some((
+                            trace.quantity.name(),
+                            format!("Δ {}", text(trace.quantity, apart)),
+                        ))
+                    });
+                    [("from the mark", format!("Δ {time}"))]
+                        .into_iter()
+                        .chain(apart)
+                        .collect()
+                }
+                _ => {
+                    let label = if cursor.is_some() { "cursor" } else { "mark" };
+                    let values = traces.filter_map(|trace| {
+                        Some((
+                            trace.quantity.name(),
+                            text(trace.quantity, value_at(trace, at)?),
+                        ))
+                    });
+                    [(label, seconds_text(at))]
+                        .into_iter()
+                        .chain(values)
+                        .collect()
+                }
+            }
+        })
+    }
+
+    /// From the mark to the cursor: seconds, and how far the first quantity is apart.
+    fn delta(&self) -> Option<(f64, Option<f64>)> {
+        let (cursor, mark) = (self.cursor.get()?, self.mark.get()?);
+        let apart = self.feed.plot.with(|plot| {
+            let trace = plot.traces.first()?;
+            Some(difference(
+                trace.quantity,
+                value_at(trace, cursor)?,
+                value_at(trace, mark)?,
+            ))
+        });
+        Some((cursor - mark, apart))
+    }
+}
+
+/// How far a value is from another; an angle goes the shorter way.
+fn difference(quantity: Quantity, value: f64, other: f64) -> f64 {
+    let apart = value - other;
+    match quantity {
+        Quantity::Angle => apart - (apart / 360.0).round() * 360.0,
+        _ => apart,
+    }
+}
+
+fn seconds_text(seconds: f64) -> String {
+    format!("{seconds:.4} s").replace('-', "−")
+}
+
+/// The quantities that were shown last.
+fn remembered() -> Vec<Quantity> {
+    let storage = window().local_storage().ok().flatten();
+    let names = storage.and_then(|storage| storage.get_item("plot").ok().flatten());
+    match names {
+        Some(names) => {
+            let listed = |quantity: &Quantity| names.split(' ').any(|name| name == quantity.name());
+            Quantity::ALL.into_iter().filter(listed).collect()
+        }
+        None => vec![Quantity::Angle],
+    }
+}
+
+fn remember(shown: &[Quantity]) {
+    let names: Vec<_> = shown.iter().map(|quantity| quantity.name()).collect();
+    if let Ok(Some(storage)) = window().local_storage() {
+        // A browser that keeps nothing shows the angle next time.
+        let _ = storage.set_item("plot", &names.join(" "));
+    }
+}
+
+/// Keeps asking the engine, and goes back to the present when another link begins.
+fn ask(view: View) {
+    let app = view.app;
+    let request = Memo::new(move |_| view.request());
+    let waited = StoredValue::new(0u32);
+    let ticks = StoredValue::new(0u32);
+    Effect::new(move || app.send(ToEngine::Plot(request.get())));
+    Effect::new(move || {
+        view.feed.plot.track();
+        waited.set_value(0);
+    });
+    let tick = move || {
+        ticks.update_value(|ticks| *ticks = ticks.wrapping_add(1));
+        if ticks.get_value().is_multiple_of(ASK_REST) {
+            app.send(ToEngine::Rest);
+        }
+        if view.held.get_untracked().is_some() {
+            return;
+        }
+        match waited.get_value() {
+            0 => {
+                waited.set_value(PATIENCE);
+                app.send(ToEngine::Plot(request.get_untracked()));
+            }
+            left => waited.set_value(left - 1),
+        }
+    };
+    if let Ok(timer) = set_interval_with_handle(tick, ASK) {
+        on_cleanup(move || timer.clear());
+    }
+    Effect::new(move |before: Option<f64>| {
+        let good = app.snapshot.with(|snapshot| snapshot.counts.good);
+        if before.is_some_and(|before| before > good) {
+            view.go_on();
+        }
+        good
+    });
+}
+
+#[component]
+pub(crate) fn PlotPanel() -> impl IntoView {
+    let app = expect_context::<App>();
+    let view = View::new(app);
+    ask(view);
+    let plot = view.feed.plot;
+    let available = Memo::new(move |_| plot.with(|plot| plot.available.clone()));
+    let drawn = Memo::new(move |_| {
+        let available = available.get();
+        let has =
+            |quantity: &Quantity| *quantity == Quantity::Angle || available.contains(quantity);
+        view.shown.get().into_iter().filter(has).collect::<Vec<_>>()
+    });
+    let paused = move || view.held.get().is_some();
+    let heading = move || match (view.held.get(), view.span.get()) {
+        (Some((from, to)), _) => format!("{from:.2} … {to:.2} s"),
+        (None, Span::All) => "Since the link was opened".into(),
+        (None, span) => format!("Last {}", span.title()),
+    };
+    let points = move || plot.with(|plot| plot.traces.first().map_or(0, |trace| trace.times.len()));
+    view! {
+        <section
+            class="panel plot"
+            data-testid="plot"
+            data-points=points
+            data-from=move || plot.with(|plot| plot.from)
+            data-to=move || plot.with(|plot| plot.to)
+            data-paused=move || paused().to_string()
+        >
+            <h2>{heading}</h2>
+            <Controls view=view />
+            {move || drawn.get().is_empty().then(|| view! { <p class="hint">"Choose what is drawn."</p> })}
+            <For each=move || drawn.get() key=|quantity| quantity.name() let:quantity>
+                <ChartView quantity=quantity view=view />
+            </For>
+            <div class="below">
+                <Readout view=view />
+                <div class="group" role="group" aria-label="Time that is shown">
+                    <button on:click=move |_| view.look(1.0, -0.5) aria-label="Earlier">"◂"</button>
+                    <button on:click=move |_| view.look(1.0, 0.5) aria-label="Later">"▸"</button>
+                    <button data-testid="plot-zoom-in" on:click=move |_| view.look(0.5, 0.0) aria-label="Zoom in">"+"</button>
+                    <button on:click=move |_| view.look(2.0, 0.0) aria-label="Zoom out">"−"</button>
+                </div>
+            </div>
+        </section>
+    }
+}
+
+#[component]
+fn Controls(view: View) -> impl IntoView {
+    let available = Memo::new(move |_| view.feed.plot.with(|plot| plot.available.clone()));
+    let paused = move || view.held.get().is_some();
+    let span = move |span: Span| {
+        view! {
+            <button
+                data-testid="plot-span"
+                aria-pressed=move || (!paused() && view.span.get() == span).to_string()
+                on:click=move |_| {
+                    view.span.set(span);
+                    view.go_on();
+                }
+            >
+                {span.title()}
+            </button>
+        }
+    };
+    let quantity = move |quantity: Quantity| {
+        let offered =
+            move || quantity == Quantity::Angle || available.with(|all| all.contains(&quantity));
+        view! {
+            <button
+                class=quantity.name()
+                data-testid=format!("plot-{}", quantity.name())
+                aria-pressed=move || view.is_shown(quantity).to_string()
+                hidden=move || !offered()
+                on:click=move |_| view.toggle(quantity)
+            >
+                {quantity.name()}
+            </button>
+        }
+    };
+    let fits = move || view.height.get() == Height::Fit;
+    view! {
+        <div class="controls">
+            <div class="group" role="group" aria-label="How it goes on">
+                <button
+                    class="pause"
+                    data-testid="plot-pause"
+                    on:click=move |_| if view.held.get_untracked().is_some() { view.go_on() } else { view.pause() }
+                >
+                    {move || if paused() { "Live" } else { "Pause" }}
+                </button>
+                {Span::ALL.map(span).into_iter().collect_view()}
+            </div>
+            <div class="group" role="group" aria-label="What is drawn">
+                {Quantity::ALL.map(quantity).into_iter().collect_view()}
+                <button
+                    data-testid="plot-fit"
+                    aria-pressed=move || fits().to_string()
+                    title="Draw the angle as large as it fits, not on a whole turn"
+                    on:click=move |_| view.height.set(if fits() { Height::Whole } else { Height::Fit })
+                >
+                    "fit"
+                </button>
+            </div>
+        </div>
+    }
+}
+
+#[component]
+fn Readout(view: View) -> impl IntoView {
+    let delta = move || view.delta();
+    view! {
+        <dl
+            class="readout"
+            data-testid="plot-cursor"
+            data-time=move || view.cursor.get()
+            data-mark=move || view.mark.get()
+            data-delta=move || delta().map(|(time, _)| time)
+            data-value=move || delta().and_then(|(_, apart)| apart)
+        >
+            {move || {
+                let rows = view.readout();
+                match rows.is_empty() {
+                    true => view! {
+                        <dt class="hint">"Point at a chart to read it, click to set a mark, drag to zoom."</dt>
+                    }
+                        .into_any(),
+                    false => rows
+                        .into_iter()
+                        .map(|(label, value)| view! { <div><dt>{label}</dt> <dd>{value}</dd></div> })
+                        .collect_view()
+                        .into_any(),
+                }
+            }}
+        </dl>
+    }
+}

@@ -1,0 +1,195 @@
+//! One quantity over time, drawn by uPlot.
+
+use super::View;
+use encoderscope_web::plot::{Plot, Quantity, Trace};
+use leptos::{html, prelude::*};
+use std::rc::Rc;
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlElement;
+
+#[wasm_bindgen]
+extern "C" {
+    /// Makes charts; `web/js/plot.js`.
+    pub type Charts;
+    #[wasm_bindgen(method)]
+    fn chart(
+        this: &Charts,
+        element: &HtmlElement,
+        color: &str,
+        whole: bool,
+        tell: &JsValue,
+    ) -> Chart;
+
+    /// A chart.
+    type Chart;
+    #[wasm_bindgen(method)]
+    fn draw(this: &Chart, times: &[f64], values: &[f64], from: f64, to: f64, low: f64, high: f64);
+    #[wasm_bindgen(method)]
+    fn mark(this: &Chart, at: f64);
+    #[wasm_bindgen(method)]
+    fn remove(this: &Chart);
+}
+
+/// How high a chart reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Height {
+    /// An angle is drawn on a whole turn.
+    Whole,
+    /// What is drawn fills the chart.
+    Fit,
+}
+
+const fn color(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Angle => "--angle",
+        Quantity::Speed => "--status",
+        Quantity::Temperature => "--flags",
+        Quantity::Errors => "--bad",
+    }
+}
+
+/// The lowest and the highest value.
+fn extremes(trace: &Trace) -> Option<(f64, f64)> {
+    let mut values = trace.values.iter().filter(|value| !value.is_nan());
+    let first = *values.next()?;
+    Some(values.fold((first, first), |(low, high), value| {
+        (low.min(*value), high.max(*value))
+    }))
+}
+
+/// The range of the axis: round numbers around the values, so that it stays while they vary.
+fn range(quantity: Quantity, height: Height, count: f64, trace: &Trace) -> (f64, f64) {
+    let (low, high) = extremes(trace).unwrap_or_default();
+    let least = match (quantity, height) {
+        (Quantity::Angle, Height::Whole) => return (0.0, 360.0),
+        (Quantity::Angle, Height::Fit) => 8.0 * count,
+        (Quantity::Speed, _) => 0.2,
+        (Quantity::Temperature, _) => 2.0,
+        (Quantity::Errors, _) => return (0.0, rounded(high.max(5.0) * 1.1)),
+    };
+    let spread = (high - low).max(least);
+    let step = rounded(spread / 4.0);
+    let middle = (low + high) / 2.0;
+    let round = |value: f64| (value / step).floor() * step;
+    (
+        round((middle - spread / 2.0).min(low)),
+        round((middle + spread / 2.0).max(high)) + step,
+    )
+}
+
+/// The next 1, 2 or 5 of a power of ten.
+fn rounded(value: f64) -> f64 {
+    let unit = 10f64.powf(value.log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0];
+    let step = steps.into_iter().find(|step| step * unit >= value);
+    step.unwrap_or(10.0) * unit
+}
+
+/// A value with as many decimals as its quantity deserves.
+pub(super) fn text(quantity: Quantity, value: f64) -> String {
+    let text = match quantity {
+        Quantity::Angle => format!("{value:.4}"),
+        Quantity::Speed => format!("{value:.3}"),
+        Quantity::Temperature => format!("{value:.1}"),
+        Quantity::Errors => format!("{value:.0}"),
+    };
+    format!("{}{}", text.replace('-', "−"), quantity.unit())
+}
+
+/// The value that is drawn nearest to a time.
+pub(super) fn value_at(trace: &Trace, at: f64) -> Option<f64> {
+    let points = trace.times.iter().zip(&trace.values);
+    let near = points
+        .filter(|(_, value)| !value.is_nan())
+        .map(|(time, value)| ((time - at).abs(), *value))
+        .min_by(|one, other| one.0.total_cmp(&other.0))?;
+    Some(near.1)
+}
+
+/// What a chart shows, in words.
+fn summary(trace: Option<&Trace>, quantity: Quantity) -> String {
+    let last = trace.and_then(|trace| trace.values.iter().rev().find(|value| !value.is_nan()));
+    match (trace.and_then(extremes), last) {
+        (Some((low, high)), Some(last)) => format!(
+            "lowest {} · highest {} · last {}",
+            text(quantity, low),
+            text(quantity, high),
+            text(quantity, *last)
+        ),
+        _ => "nothing in this time".into(),
+    }
+}
+
+fn trace_of(plot: &Plot, quantity: Quantity) -> Option<&Trace> {
+    plot.traces.iter().find(|trace| trace.quantity == quantity)
+}
+
+#[component]
+pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
+    let charts = expect_context::<StoredValue<Charts, LocalStorage>>();
+    let place = NodeRef::<html::Div>::new();
+    let chart = RwSignal::new_local(None::<Rc<Chart>>);
+    let tell = Closure::<dyn FnMut(String, f64, f64)>::new(move |what: String, a, b| {
+        view.told(&what, a, b);
+    });
+    // Kept until the chart is gone, or it would call what is no more.
+    let tell = StoredValue::new_local(Some(tell));
+    Effect::new(move || {
+        let Some(element) = place.get() else {
+            return;
+        };
+        let whole = quantity == Quantity::Angle;
+        let made =
+            tell.with_value(|tell| {
+                let tell = tell.as_ref()?;
+                Some(charts.with_value(|charts| {
+                    charts.chart(&element, color(quantity), whole, tell.as_ref())
+                }))
+            });
+        chart.set(made.map(Rc::new));
+    });
+    Effect::new(move || {
+        let Some(chart) = chart.get() else {
+            return;
+        };
+        let height = view.height.get();
+        view.feed.plot.with(|plot| {
+            let Some(trace) = trace_of(plot, quantity) else {
+                return;
+            };
+            let (low, high) = range(quantity, height, view.count(), trace);
+            chart.draw(&trace.times, &trace.values, plot.from, plot.to, low, high);
+        });
+    });
+    Effect::new(move || {
+        if let Some(chart) = chart.get() {
+            chart.mark(view.mark.get().unwrap_or(f64::NAN));
+        }
+    });
+    on_cleanup(move || {
+        if let Some(chart) = chart.try_update_untracked(Option::take).flatten() {
+            chart.remove();
+        }
+    });
+    let says = move || {
+        view.feed
+            .plot
+            .with(|plot| summary(trace_of(plot, quantity), quantity))
+    };
+    view! {
+        <figure class="chart">
+            <figcaption>
+                <b>{quantity.name()}</b>
+                <span>{says}</span>
+            </figcaption>
+            <div
+                class="canvas"
+                node_ref=place
+                tabindex="0"
+                role="img"
+                aria-label=move || format!("{} over time: {}", quantity.name(), says())
+                data-testid=format!("chart-{}", quantity.name())
+            ></div>
+        </figure>
+    }
+}

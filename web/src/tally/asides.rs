@@ -1,0 +1,151 @@
+//! What goes on beside reading: scans, searches, and bytes sent by hand.
+
+use super::{Kind, RATE_OVER, Tally, shown};
+use crate::{
+    link::query,
+    message::{Device, Found, Search, Shown, Trial},
+};
+use encoderscope::{decode::Frame, finder::Finder, session::Micros};
+
+/// Who sends what reading does not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Who {
+    /// A guided setting.
+    Setting,
+    /// A scan or a search.
+    Scan,
+    /// The user.
+    Hand,
+}
+
+impl Who {
+    const fn text(self) -> &'static str {
+        match self {
+            Self::Setting => "setting",
+            Self::Scan => "scan",
+            Self::Hand => "by hand",
+        }
+    }
+}
+
+/// What is kept of a device of a BUS.
+pub(super) struct Kept {
+    pub(super) address: u8,
+    reading: Option<Shown>,
+    good: f64,
+    bad: f64,
+    at: Option<Micros>,
+}
+
+impl Kept {
+    pub(super) fn shown(&self, now: Micros) -> Device {
+        Device {
+            address: self.address,
+            reading: self.reading,
+            good: self.good,
+            bad: self.bad,
+            fresh: self.at.is_some_and(|at| now < at + RATE_OVER),
+        }
+    }
+}
+
+impl Tally {
+    /// Bytes have come in that are not for the session.
+    pub fn received_aside(&mut self, now: Micros, bytes: &[u8]) {
+        self.counts.set += bytes.len() as f64;
+        self.remember(now, bytes, Kind::Aside, String::new());
+    }
+
+    /// Bytes are sent that the session did not ask for.
+    pub fn sent(&mut self, now: Micros, bytes: &[u8], who: Who) {
+        self.pace.request();
+        self.remember(now, bytes, Kind::Sent, who.text().into());
+    }
+
+    /// A scan is over.
+    pub fn scanned(&mut self, addresses: &[u8], disturbed: &[u8]) {
+        self.devices = addresses
+            .iter()
+            .map(|address| Kept {
+                address: *address,
+                reading: None,
+                good: 0.0,
+                bad: 0.0,
+                at: None,
+            })
+            .collect();
+        let found = match addresses.len() {
+            0 => "No device answers.".to_owned(),
+            1 => "One device answers.".to_owned(),
+            count => format!("{count} devices answer."),
+        };
+        let strange: Vec<String> = disturbed.iter().map(ToString::to_string).collect();
+        self.scan = Some(match strange.is_empty() {
+            true => found,
+            false => format!(
+                "{found} What answers at {} is damaged: a disturbed device, or two with one address.",
+                strange.join(", ")
+            ),
+        });
+        self.changed = true;
+    }
+
+    /// One device alone is read again.
+    pub fn forget_devices(&mut self) {
+        self.devices.clear();
+        self.scan = None;
+        self.changed = true;
+    }
+
+    /// The addresses of the devices that are read.
+    #[must_use]
+    pub fn addresses(&self) -> Vec<u8> {
+        self.devices.iter().map(|device| device.address).collect()
+    }
+
+    /// How far a search is.
+    pub fn searched(&mut self, finder: &Finder) {
+        let trials = finder.trials().iter().map(|trial| Trial {
+            baud: trial.baud,
+            format: trial.format.map(|format| format.name().into()),
+            requests: trial.requests,
+            bytes: trial.bytes as f64,
+        });
+        let found = finder.found().iter().map(|found| Found {
+            profile: query(&found.profile),
+            verdict: found.verdict.name().into(),
+            evidence: found.evidence.clone(),
+            narrowest: found.narrowest,
+        });
+        self.search = Some(Search {
+            trials: trials.collect(),
+            found: found.collect(),
+            done: false,
+        });
+        self.changed = true;
+    }
+
+    /// Nothing goes on any more on this link.
+    pub const fn interrupted(&mut self) {
+        if let Some(search) = &mut self.search {
+            search.done = true;
+        }
+        self.changed = true;
+    }
+
+    /// A frame of one device among several.
+    pub(super) fn take_device(&mut self, now: Micros, frame: &Frame<'_>, good: bool) {
+        let address = frame.values().address;
+        let mut devices = self.devices.iter_mut();
+        if let Some(device) = devices.find(|device| Some(device.address) == address) {
+            match good {
+                true => {
+                    device.good += 1.0;
+                    device.reading = shown(frame);
+                    device.at = Some(now);
+                }
+                false => device.bad += 1.0,
+            }
+        }
+    }
+}
