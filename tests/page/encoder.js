@@ -11,6 +11,10 @@ export const blockPort = () => {
   return () => execFileSync('umount', ['--lazy', port]);
 };
 
+/** The options of an encoder from the parameters of a link. */
+export const options = (query) =>
+  [...new URLSearchParams(query)].flatMap(([name, value]) => [`--${name}`, value]);
+
 export class Encoder {
   /** Starts an encoder: profile parameters as options, then settings. */
   static async start(...words) {

@@ -7,7 +7,9 @@
 //! (with a zero input of the IP-75 at 0 V), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
 //! replies). `exclusive=0` lets another program open the pty, as the last close of a real port does;
-//! this one is held open here. The end of standard input pulls the plug. What a stream sends while nobody reads is
+//! this one is held open here. `device=ADDRESS` puts another encoder on the BUS; settings behind it
+//! are for that one. The adapter runs at the baud rate that the browser has asked for: at another
+//! rate than the encoder's both sides hear what a UART makes of it. The end of standard input pulls the plug. What a stream sends while nobody reads is
 //! lost.
 
 #[cfg(target_arch = "wasm32")]
@@ -21,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
     use encoderscope::{
-        emulator::{Emulator, Shaft, ZeroInput},
+        emulator::{Bus, Emulator, Shaft, ZeroInput},
         profile::Profile,
         session::Micros,
     };
@@ -39,9 +41,12 @@ mod native {
         let pairs = parameters
             .iter()
             .map(|(name, value)| (name.as_str(), value.as_str()));
-        let mut emulator = Emulator::new(Profile::parse(pairs)?, Shaft::still(0.0))?;
+        let first = Emulator::new(Profile::parse(pairs)?, Shaft::still(0.0))?;
+        let mut line = Bus {
+            devices: vec![first],
+        };
         for setting in &settings {
-            set(&mut emulator, setting, 0)?;
+            set(&mut line, setting, 0)?;
         }
 
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
@@ -60,7 +65,7 @@ mod native {
         tcsetattr(&slave, OptionalActions::Now, &raw)?;
         println!("{}", path.to_str()?);
         std::io::stdout().flush()?;
-        serve(&mut emulator, &master, &slave)
+        serve(&mut line, &master, &slave)
     }
 
     type Arguments = (Vec<(String, String)>, Vec<String>);
@@ -83,11 +88,18 @@ mod native {
         Ok((parameters, settings))
     }
 
-    fn set(emulator: &mut Emulator, setting: &str, now: Micros) -> Result<(), Box<dyn Error>> {
+    fn set(line: &mut Bus, setting: &str, now: Micros) -> Result<(), Box<dyn Error>> {
         let (name, value) = setting
             .trim()
             .split_once('=')
             .ok_or("a setting is name=value")?;
+        let emulator = line.devices.last_mut().ok_or("no encoder")?;
+        if name == "device" {
+            let profile = emulator.profile().with("address", value)?;
+            line.devices
+                .push(Emulator::new(profile, Shaft::still(0.0))?);
+            return Ok(());
+        }
         match name {
             "turning" => emulator.shaft = Shaft::turning(emulator.shaft.start, value.parse()?),
             "still" => emulator.shaft = Shaft::still(value.parse()?),
@@ -116,21 +128,21 @@ mod native {
         Ok(())
     }
 
-    fn serve(
-        emulator: &mut Emulator,
-        master: &OwnedFd,
-        slave: &OwnedFd,
-    ) -> Result<(), Box<dyn Error>> {
+    fn serve(line: &mut Bus, master: &OwnedFd, slave: &OwnedFd) -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let stdin = std::io::stdin();
         let mut buffer = [0; 4096];
         let mut text = String::new();
         loop {
             let now = start.elapsed().as_micros() as u64;
-            while let Some(bytes) = emulator.poll_output(now) {
+            let rate = tcgetattr(slave)?.output_speed();
+            for device in &mut line.devices {
+                device.faults.rate = Some(rate).filter(|rate| *rate != device.profile().baud);
+            }
+            while let Some(bytes) = line.poll_output(now) {
                 write_all(master, &bytes)?;
             }
-            let wait = emulator
+            let wait = line
                 .deadline()
                 .map_or(100_000, |due| due.saturating_sub(now));
             let mut ready = [
@@ -146,11 +158,11 @@ mod native {
             {
                 return Err(error.into());
             }
-            let (line, command) = (ready[0].revents(), ready[1].revents());
-            if line.contains(PollFlags::IN) {
+            let (input, command) = (ready[0].revents(), ready[1].revents());
+            if input.contains(PollFlags::IN) {
                 let count = read(master, &mut buffer)?;
                 let now = start.elapsed().as_micros() as u64;
-                emulator.handle_input(now, &buffer[..count]);
+                line.handle_input(now, &buffer[..count]);
             }
             if command.intersects(PollFlags::IN | PollFlags::HUP) {
                 let count = read(&stdin, &mut buffer)?;
@@ -163,7 +175,7 @@ mod native {
                     let now = start.elapsed().as_micros() as u64;
                     match setting.trim() {
                         "exclusive=0" => ioctl_tiocnxcl(slave)?,
-                        setting => set(emulator, setting, now)?,
+                        setting => set(line, setting, now)?,
                     }
                 }
             }

@@ -118,7 +118,7 @@ fn Check(
     change: impl Fn(bool) + Copy + 'static,
 ) -> impl IntoView {
     view! {
-        <label class="check">
+        <label class="switch">
             <input type="checkbox" name=format!("demo-{name}") prop:checked=on on:change:target=move |event| change(event.target().checked()) />
             {name}
         </label>
