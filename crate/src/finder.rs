@@ -194,7 +194,8 @@ impl Finder {
         }]);
         finder.known = Some(*profile);
         finder.formats = VecDeque::from([Format::Bus]);
-        finder.begin(now + QUIET);
+        // What was asked before may still be answered.
+        finder.begin(now + TIMEOUT);
         Some(finder)
     }
 

@@ -39,9 +39,10 @@ test('the log shows both directions, filters, and explains a frame @serial', asy
   await filter(page, 'sent').click();
   await expect.poll(async () => (await rows(page)).every((row) => row.bytes === '1A')).toBe(true);
   await filter(page, 'faults').click();
-  await expect(at(page, 'frame-row')).toHaveCount(0);
+  // A reply that a busy machine delivers late is a fault as well.
+  const late = (await rows(page)).length;
   encoder.set('flip=100');
-  await expect.poll(async () => (await rows(page)).length).toBeGreaterThan(3);
+  await expect.poll(async () => (await rows(page)).length).toBeGreaterThan(late + 2);
   encoder.set('flip=0');
   for (const row of await rows(page)) expect(row.ok).toBe('false');
   await filter(page, 'received').click();
@@ -60,11 +61,13 @@ test('bytes by hand are sent, marked, and answered @serial', async ({ page }) =>
   const hand = page.locator('input[name=by-hand]');
   await hand.fill('8a');
   await at(page, 'send').click();
-  await filter(page, 'sent').click();
   await expect
-    .poll(async () => (await rows(page)).find((row) => row.text === 'by hand')?.bytes, { timeout: 3000 })
-    .toBe('8A');
-  await until(page, 'bytes-set', (bytes) => bytes === 6);
+    .poll(() => rows(page))
+    .toEqual([
+      { direction: 'received', ok: 'true', bytes: '8A 00 05 00 00 8F', text: '✓' },
+      { direction: 'sent', ok: undefined, bytes: '8A', text: 'by hand' },
+    ]);
+  await until(page, 'bytes-set', (bytes) => bytes >= 6);
   await expectLink(page, 'reading');
   await hand.fill('zz');
   await at(page, 'send').click();
@@ -85,7 +88,7 @@ test('a byte that changes an encoder asks first @serial', async ({ page }) => {
   for (let time = 0; time < 10; time += 1) {
     await at(page, 'send').click();
     await at(page, 'send-anyway').click();
-    await until(page, 'bytes-set', (bytes) => bytes === 6 * (time + 1));
+    await expect.poll(async () => (await rows(page)).filter((row) => row.ok === 'true').length).toBe(time + 1);
   }
   await expectLink(page, 'reading');
   // Polls stood between them, so that the encoder has not acted.

@@ -145,6 +145,8 @@ pub enum LogFilter {
     Sent,
     /// What is no good frame.
     Faults,
+    /// What does not belong to reading: settings, scans, and bytes sent by hand.
+    Beside,
 }
 
 impl Setting {

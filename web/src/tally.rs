@@ -155,7 +155,7 @@ impl Tally {
         match output {
             Output::Transmit(bytes) => {
                 self.pace.request();
-                self.remember(now, bytes, Kind::Sent, String::new());
+                self.remember(now, bytes, Kind::Asked, String::new());
             }
             Output::Silent { .. } => {
                 self.counts.silent += 1.0;

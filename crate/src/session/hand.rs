@@ -21,7 +21,7 @@ enum State {
 /// let mut hand = Hand::new(&[0x64], 0);
 /// hand.handle_timeout(hand.deadline());
 /// assert_eq!(hand.poll_output(), Some(vec![0x64]));
-/// hand.handle_input(30_000, &[1, 2, 3]);
+/// hand.handle_input(110_000, &[1, 2, 3]);
 /// hand.handle_timeout(hand.deadline());
 /// assert_eq!(hand.reply(), Some(&[1, 2, 3][..]));
 /// ```
@@ -43,7 +43,7 @@ impl Hand {
             output: None,
             received: Vec::new(),
             // What was asked before may still be answered.
-            state: State::Ready(now + QUIET),
+            state: State::Ready(now + TIMEOUT),
         }
     }
 

@@ -191,7 +191,10 @@ impl Run {
         tally.received(at, bytes.len());
         match (&mut self.talk, &mut self.session) {
             (Some(talk), _) => {
-                tally.received_aside(at, bytes);
+                tally.received_beside(bytes.len());
+                if !matches!(talk, Talk::Hand(_)) {
+                    tally.answered(at, bytes);
+                }
                 talk.handle_input(at, bytes);
             }
             (None, Some(session)) => session.handle_input(at, bytes),
@@ -254,7 +257,8 @@ impl Run {
             Some(Talk::Hand(hand)) => {
                 if let Some(bytes) = hand.poll_output() {
                     self.send(at, &bytes, Who::Hand, tally);
-                } else if hand.reply().is_some() {
+                } else if let Some(reply) = hand.reply() {
+                    tally.answered(at, reply);
                     self.talk = None;
                 } else {
                     return false;

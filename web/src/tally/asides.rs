@@ -51,9 +51,16 @@ impl Kept {
 
 impl Tally {
     /// Bytes have come in that are not for the session.
-    pub fn received_aside(&mut self, now: Micros, bytes: &[u8]) {
-        self.counts.set += bytes.len() as f64;
-        self.remember(now, bytes, Kind::Aside, String::new());
+    pub fn received_beside(&mut self, count: usize) {
+        self.counts.set += count as f64;
+        self.changed = true;
+    }
+
+    /// A reply, or a part of one, that is not for the session.
+    pub fn answered(&mut self, now: Micros, bytes: &[u8]) {
+        if !bytes.is_empty() {
+            self.remember(now, bytes, Kind::Beside, String::new());
+        }
     }
 
     /// Bytes are sent that the session did not ask for.

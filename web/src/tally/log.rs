@@ -10,13 +10,16 @@ use std::collections::VecDeque;
 
 /// Entries that a snapshot carries.
 const SHOWN: usize = 14;
-/// Entries that are kept, and of those the ones with a fault, which good ones do not push out.
+/// Entries that are kept: of all, of those with a fault, and of those beside reading, which the
+/// many good ones do not push out.
 const KEPT: usize = 256;
 
 /// What an entry is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Bytes that were sent.
+    /// A request of the session.
+    Asked,
+    /// Bytes that were sent beside reading.
     Sent,
     /// A frame that came.
     Frame {
@@ -27,13 +30,21 @@ pub(super) enum Kind {
     },
     /// Bytes that came and are no frame.
     Skip,
-    /// Bytes that came while something else than reading was going on.
-    Aside,
+    /// Bytes that came beside reading; the decoder may know them.
+    Beside,
 }
 
 impl Kind {
     const fn is_fault(self) -> bool {
         matches!(self, Self::Skip | Self::Frame { good: false, .. })
+    }
+
+    const fn is_beside(self) -> bool {
+        matches!(self, Self::Sent | Self::Beside)
+    }
+
+    const fn is_sent(self) -> bool {
+        matches!(self, Self::Sent | Self::Asked)
     }
 }
 
@@ -51,6 +62,7 @@ pub(super) struct Log {
     pub(super) filter: LogFilter,
     all: VecDeque<Seen>,
     faults: VecDeque<Seen>,
+    beside: VecDeque<Seen>,
 }
 
 impl Log {
@@ -59,6 +71,10 @@ impl Log {
             self.faults.push_front(seen.clone());
             self.faults.truncate(KEPT);
         }
+        if seen.kind.is_beside() {
+            self.beside.push_front(seen.clone());
+            self.beside.truncate(KEPT);
+        }
         self.all.push_front(seen);
         self.all.truncate(KEPT);
     }
@@ -66,12 +82,13 @@ impl Log {
     /// The newest entries that the filter lets through.
     pub(super) fn entries(&self, decoder: &Decoder, opened: Micros) -> Vec<Entry> {
         let passes = |seen: &&Seen| match self.filter {
-            LogFilter::All | LogFilter::Faults => true,
-            LogFilter::Received => seen.kind != Kind::Sent,
-            LogFilter::Sent => seen.kind == Kind::Sent,
+            LogFilter::All | LogFilter::Faults | LogFilter::Beside => true,
+            LogFilter::Received => !seen.kind.is_sent(),
+            LogFilter::Sent => seen.kind.is_sent(),
         };
         let from = match self.filter {
             LogFilter::Faults => &self.faults,
+            LogFilter::Beside => &self.beside,
             _ => &self.all,
         };
         let shown = from.iter().filter(passes).take(SHOWN);
@@ -82,7 +99,8 @@ impl Log {
 fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
     let frame = match seen.kind {
         Kind::Frame { sure, .. } => frame_of(decoder, &seen.bytes, sure),
-        _ => None,
+        Kind::Beside => frame_of(decoder, &seen.bytes, true).filter(Frame::ok),
+        Kind::Asked | Kind::Sent | Kind::Skip => None,
     };
     let class = |index: usize| {
         let field = frame
@@ -92,7 +110,7 @@ fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
     };
     Entry {
         time: seen.at.saturating_sub(opened) as f64 / 1e6,
-        sent: seen.kind == Kind::Sent,
+        sent: seen.kind.is_sent(),
         bytes: seen
             .bytes
             .iter()
@@ -100,7 +118,8 @@ fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
             .map(|(index, byte)| (*byte, class(index).into()))
             .collect(),
         ok: match seen.kind {
-            Kind::Sent | Kind::Aside => None,
+            Kind::Asked | Kind::Sent => None,
+            Kind::Beside => frame.as_ref().map(Frame::ok),
             Kind::Frame { .. } => Some(frame.as_ref().is_some_and(Frame::ok)),
             Kind::Skip => Some(false),
         },

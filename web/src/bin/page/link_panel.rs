@@ -141,7 +141,7 @@ fn Counters() -> impl IntoView {
             <Count label="bytes in" testid="bytes-in" read=|snapshot| snapshot.counts.bytes />
             <Count label="in frames" testid="bytes-framed" read=|snapshot| snapshot.counts.framed />
             <Count label="skipped" testid="bytes-skipped" read=|snapshot| snapshot.counts.skipped />
-            <Counted label="aside of reading" testid="bytes-set" read=|counts| counts.set />
+            <Counted label="beside reading" testid="bytes-set" read=|counts| counts.set />
             <Counted label="line errors" testid="line-errors" read=|counts| counts.line />
         </dl>
     }

@@ -44,6 +44,7 @@ pub(crate) fn Frames() -> impl IntoView {
         (LogFilter::Received, "received"),
         (LogFilter::Sent, "sent"),
         (LogFilter::Faults, "faults"),
+        (LogFilter::Beside, "beside"),
     ];
     view! {
         <section class="panel frames">
@@ -81,7 +82,7 @@ pub(crate) fn Frames() -> impl IntoView {
                 </table>
             </div>
             {move || chosen.get().map(|entry| view! { <Inspect entry=entry close=move || { chosen.set(None); held.set(None) } /> })}
-            <ByHand />
+            <ByHand sent=move || show(LogFilter::Beside) />
         </section>
     }
 }
@@ -172,9 +173,9 @@ fn parse(text: &str) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Sends bytes by hand; those that change an encoder only after a question.
+/// Sends bytes by hand, and shows what comes back; those that change an encoder only after a question.
 #[component]
-fn ByHand() -> impl IntoView {
+fn ByHand(sent: impl Fn() + Copy + Send + 'static) -> impl IntoView {
     let app = expect_context::<App>();
     let text = RwSignal::new(String::new());
     let fault = RwSignal::new(None::<String>);
@@ -195,15 +196,19 @@ fn ByHand() -> impl IntoView {
             Err(why) => fault.set(Some(why)),
             Ok(bytes) => match danger(&app.profile.get_untracked(), &bytes) {
                 Some(danger) => question.set(Some((bytes, danger.to_string()))),
-                None => app.send(ToEngine::Send {
-                    bytes,
-                    confirmed: false,
-                }),
+                None => {
+                    sent();
+                    app.send(ToEngine::Send {
+                        bytes,
+                        confirmed: false,
+                    });
+                }
             },
         }
     };
     let confirm = move |bytes: Vec<u8>| {
         question.set(None);
+        sent();
         app.send(ToEngine::Send {
             bytes,
             confirmed: true,
