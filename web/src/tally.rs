@@ -2,6 +2,7 @@
 
 mod asides;
 mod log;
+mod memory;
 mod pace;
 mod settings;
 mod shaft;

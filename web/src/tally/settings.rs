@@ -1,7 +1,7 @@
-//! Guided settings: their progress, their end, and the EEPROM.
+//! Guided settings: their progress and their end.
 
 use super::{Tally, frame_of, shown};
-use crate::message::{Cell, Outcome, Progress, Setting};
+use crate::message::{Outcome, Progress, Setting};
 use encoderscope::sequence::{Event, Holds};
 
 impl Tally {
@@ -22,36 +22,6 @@ impl Tally {
             outcome: None,
         });
         self.changed = true;
-    }
-
-    /// A cell of the EEPROM has been asked for.
-    pub const fn ask_memory(&mut self, address: u8) {
-        self.memory = Some(Cell {
-            address,
-            data: None,
-        });
-        self.changed = true;
-    }
-
-    /// What the cell that a setting writes held when it was read last.
-    fn held(&self, setting: Setting) -> Option<u8> {
-        match (setting, self.memory) {
-            (Setting::Memory { address, .. }, Some(cell)) if cell.address == address => cell.data,
-            _ => None,
-        }
-    }
-
-    /// What the cell that was to be written holds now.
-    fn settle_memory(&mut self, holds: Holds) {
-        let setting = self.progress.as_ref().map(|progress| progress.setting);
-        if let Some(Setting::Memory { address, data }) = setting {
-            let data = match holds {
-                Holds::New => Some(data),
-                Holds::Old => self.held(Setting::Memory { address, data }),
-                Holds::Unknown => None,
-            };
-            self.memory = Some(Cell { address, data });
-        }
     }
 
     /// A sequence could not begin.

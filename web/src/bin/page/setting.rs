@@ -55,6 +55,16 @@ const fn meaning(setting: Setting) -> &'static str {
     }
 }
 
+/// What the panel is about; what changes within one of these does not build it anew, so that a
+/// button can be pressed for as long as it takes.
+#[derive(Clone, PartialEq)]
+enum Phase {
+    Doors,
+    Gate(Setting),
+    Running(Setting),
+    Ended(Progress),
+}
+
 #[component]
 pub(crate) fn SettingPanel() -> impl IntoView {
     let app = expect_context::<App>();
@@ -95,18 +105,25 @@ pub(crate) fn SettingPanel() -> impl IntoView {
             })
             .collect_view()
     };
+    let phase = Memo::new(move |_| match (progress.get(), chosen.get()) {
+        (Some(progress), _) if progress.outcome.is_some() => Phase::Ended(progress),
+        (Some(progress), _) => Phase::Running(progress.setting),
+        (None, Some(setting)) => Phase::Gate(setting),
+        (None, None) => Phase::Doors,
+    });
     move || {
-        let progress = progress.get();
-        if settings.get().is_empty() && progress.is_none() {
+        let phase = phase.get();
+        if settings.get().is_empty() && phase == Phase::Doors {
             return None;
         }
         Some(view! {
             <section class="panel setting">
                 <h2>"Set the encoder"</h2>
-                {match (progress, chosen.get()) {
-                    (Some(progress), _) => view! { <Running progress=progress chosen=chosen /> }.into_any(),
-                    (None, Some(setting)) => view! { <Gate setting=setting chosen=chosen /> }.into_any(),
-                    (None, None) => view! {
+                {match phase {
+                    Phase::Ended(progress) => view! { <Ended progress=progress chosen=chosen /> }.into_any(),
+                    Phase::Running(setting) => view! { <Running setting=setting progress=progress /> }.into_any(),
+                    Phase::Gate(setting) => view! { <Gate setting=setting chosen=chosen /> }.into_any(),
+                    Phase::Doors => view! {
                         <div class="doors">{doors()}</div>
                         {has_memory(&app.profile.get()).then(|| view! { <Eeprom chosen=chosen /> })}
                     }
@@ -191,79 +208,91 @@ fn position(shown: &Shown) -> String {
     }
 }
 
-/// A sequence that runs, or how it ended.
+/// A sequence that runs.
 #[component]
-fn Running(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
+fn Running(setting: Setting, progress: Memo<Option<Progress>>) -> impl IntoView {
+    let app = expect_context::<App>();
+    let read = move |read: fn(&Progress) -> u32| {
+        Memo::new(move |_| progress.get().as_ref().map_or(0, read))
+    };
+    let (done, total) = (
+        read(|progress| progress.done),
+        read(|progress| progress.total),
+    );
+    let count = Memo::new(move |_| progress.get().and_then(|progress| progress.count));
+    let hint = move || match total.get() {
+        0 => " — looking for other devices on the wire first.",
+        _ => " — nothing else is sent meanwhile.",
+    };
+    view! {
+        <p><b>{title(setting)}</b> {hint}</p>
+        <progress max=total value=done aria-label="commands done"></progress>
+        {move || count.get().map(counted)}
+        <div class="doors">
+            <button on:click=move |_| app.send(ToEngine::StopSetting)>"Stop"</button>
+        </div>
+    }
+}
+
+/// What the encoder has counted.
+fn counted(count: u8) -> impl IntoView {
+    view! {
+        <p class="count" data-testid="zero-count" data-value=count.to_string()>
+            {count} <small>" of 10 counted by the encoder"</small>
+        </p>
+    }
+}
+
+/// How a sequence ended.
+#[component]
+fn Ended(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
     let app = expect_context::<App>();
     let Progress {
         setting,
-        done,
-        total,
         count,
         before,
         held,
         outcome,
+        ..
     } = progress;
     let again = move |_| {
         app.send(ToEngine::ForgetSetting);
         chosen.set(None);
     };
-    let counted = count.map(|count| {
+    outcome.map(|outcome| {
+        let tone = match outcome.changed {
+            Some(true) => "lamp good",
+            Some(false) => "lamp bad",
+            None => "lamp warn",
+        };
+        let changed = match outcome.changed {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None => "unknown",
+        };
+        let in_memory = matches!(setting, Setting::Memory { .. });
+        let before = match in_memory {
+            true => held.map(byte_text),
+            false => before.map(|before| position(&before)),
+        };
+        let now = move || {
+            let snapshot = app.snapshot.get();
+            match in_memory {
+                true => snapshot.memory.and_then(|cell| cell.data).map(byte_text),
+                false => snapshot.reading.map(|shown| position(&shown)),
+            }
+        };
         view! {
-            <p class="count" data-testid="zero-count" data-value=count.to_string()>
-                {count} <small>" of 10 counted by the encoder"</small>
-            </p>
-        }
-    });
-    match outcome {
-        None => view! {
-            <p>
-                <b>{title(setting)}</b>
-                {if total == 0 { " — looking for other devices on the wire first." } else { " — nothing else is sent meanwhile." }}
-            </p>
-            <progress max=total value=done aria-label="commands done"></progress>
-            {counted}
+            <p class=tone data-testid="zero-outcome" data-value=changed>{outcome.text}</p>
+            {count.map(counted)}
+            <dl class="counts">
+                {before.map(|before| view! { <dt>"before"</dt> <dd data-testid="setting-before">{before}</dd> })}
+                <dt>"now"</dt>
+                <dd data-testid="setting-now">{now}</dd>
+            </dl>
             <div class="doors">
-                <button on:click=move |_| app.send(ToEngine::StopSetting)>"Stop"</button>
+                <button class="primary" on:click=again>"Done"</button>
             </div>
         }
-        .into_any(),
-        Some(outcome) => {
-            let tone = match outcome.changed {
-                Some(true) => "lamp good",
-                Some(false) => "lamp bad",
-                None => "lamp warn",
-            };
-            let changed = match outcome.changed {
-                Some(true) => "yes",
-                Some(false) => "no",
-                None => "unknown",
-            };
-            let in_memory = matches!(setting, Setting::Memory { .. });
-            let before = match in_memory {
-                true => held.map(byte_text),
-                false => before.map(|before| position(&before)),
-            };
-            let now = move || {
-                let snapshot = app.snapshot.get();
-                match in_memory {
-                    true => snapshot.memory.and_then(|cell| cell.data).map(byte_text),
-                    false => snapshot.reading.map(|shown| position(&shown)),
-                }
-            };
-            view! {
-                <p class=tone data-testid="zero-outcome" data-value=changed>{outcome.text}</p>
-                {counted}
-                <dl class="counts">
-                    {before.map(|before| view! { <dt>"before"</dt> <dd data-testid="setting-before">{before}</dd> })}
-                    <dt>"now"</dt>
-                    <dd data-testid="setting-now">{now}</dd>
-                </dl>
-                <div class="doors">
-                    <button class="primary" on:click=again>"Done"</button>
-                </div>
-            }
-            .into_any()
-        }
-    }
+    })
 }
