@@ -447,7 +447,7 @@ fn Readout(view: View) -> impl IntoView {
                 let rows = view.readout();
                 match rows.is_empty() {
                     true => view! {
-                        <dt class="hint">"Point at a chart to read it, click to set a mark, drag to zoom."</dt>
+                        <dt class="hint">"Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc."</dt>
                     }
                         .into_any(),
                     false => rows
