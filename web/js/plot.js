@@ -4,8 +4,12 @@ import uPlot from 'uplot';
 const sync = uPlot.sync('plot');
 
 const tenths = [1e-5, 1e-4, 1e-3, 1e-2, 1e-1].flatMap((unit) => [unit, 2 * unit, 5 * unit]);
+const tens = [1, 1e1, 1e2, 1e3, 1e4, 1e5].flatMap((unit) => [unit, 2 * unit, 5 * unit]);
 const seconds = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600, 7200, 21600, 86400];
 const degrees = [1, 2, 5, 10, 15, 30, 45, 90, 180, 360];
+
+/** Steps of the axis of a quantity. */
+const steps = { angle: [...tenths, ...degrees], errors: tens };
 
 const token = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -52,17 +56,19 @@ class Chart {
   #x = [0, 1];
   #y = [0, 1];
   #mark = NaN;
+  #tell;
   #watched;
 
   /** `tell(what, a, b)` is called with `zoom`, `cursor`, `mark`, `live` and `width`. */
-  constructor(element, color, whole, tell) {
-    this.#u = new uPlot(this.#options(element, color, whole, tell), [[0, 1], [null, null]], element);
+  constructor(element, quantity, color, tell) {
+    this.#tell = tell;
+    this.#u = new uPlot(this.#options(element, quantity, color), [[0, 1], [null, null]], element);
     const over = this.#u.over;
-    over.addEventListener('click', () => tell('mark', this.#u.posToVal(this.#u.cursor.left, 'x'), 0));
-    element.addEventListener('keydown', (event) => this.#key(event, tell));
+    over.addEventListener('click', () => this.#tell('mark', this.#u.posToVal(this.#u.cursor.left, 'x'), 0));
+    element.addEventListener('keydown', (event) => this.#key(event));
     const resized = new ResizeObserver(() => {
       this.#u.setSize({ width: element.clientWidth, height: element.clientHeight });
-      tell('width', this.columns(), 0);
+      this.#tell('width', this.columns(), 0);
     });
     resized.observe(element);
     const themed = new MutationObserver(() => this.#u.redraw(false));
@@ -70,7 +76,7 @@ class Chart {
     this.#watched = [resized, themed];
   }
 
-  #options(element, color, whole, tell) {
+  #options(element, quantity, color) {
     return {
       width: Math.max(element.clientWidth, 100),
       height: Math.max(element.clientHeight, 60),
@@ -83,12 +89,12 @@ class Chart {
           size: 26,
           space: 70,
           incrs: [...tenths, ...seconds],
-          values: (u, splits, index, space, step) => splits.map((at) => clock(at, step, u.scales.x.max)),
+          values: (u, splits, index, space, step) => splits.map((at) => (at < 0 ? '' : clock(at, step, u.scales.x.max))),
         }),
         axis({
           size: 58,
           space: 28,
-          ...(whole && { incrs: [...tenths, ...degrees] }),
+          incrs: steps[quantity] ?? [...tenths, ...tens],
           values: (u, splits, index, space, step) => splits.map((value) => figure(value, step)),
         }),
       ],
@@ -97,18 +103,18 @@ class Chart {
         points: { show: false },
         drag: { x: true, y: false, setScale: false },
         sync: { key: sync.key, setSeries: false, scales: ['x', null] },
-        bind: { dblclick: () => () => tell('live', 0, 0) },
+        bind: { dblclick: () => () => this.#tell('live', 0, 0) },
       },
       hooks: {
         setCursor: [
-          (u) => tell('cursor', u.cursor.left >= 0 ? u.posToVal(u.cursor.left, 'x') : NaN, 0),
+          (u) => this.#tell('cursor', u.cursor.left >= 0 ? u.posToVal(u.cursor.left, 'x') : NaN, 0),
         ],
         setSelect: [
           (u) => {
             const { left, width } = u.select;
             if (width < 3) return;
             u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-            tell('zoom', u.posToVal(left, 'x'), u.posToVal(left + width, 'x'));
+            this.#tell('zoom', u.posToVal(left, 'x'), u.posToVal(left + width, 'x'));
           },
         ],
         draw: [(u) => this.#drawMark(u)],
@@ -129,7 +135,7 @@ class Chart {
     ctx.restore();
   }
 
-  #key(event, tell) {
+  #key(event) {
     const u = this.#u;
     const step = event.shiftKey ? 20 : 2;
     const move = { ArrowLeft: -step, ArrowRight: step }[event.key];
@@ -138,10 +144,10 @@ class Chart {
       const left = u.cursor.left >= 0 ? u.cursor.left + move : width / 2;
       u.setCursor({ left: Math.min(Math.max(left, 0), width), top: 0 }, true, true);
     } else if (event.key === 'Enter' && u.cursor.left >= 0) {
-      tell('mark', u.posToVal(u.cursor.left, 'x'), 0);
+      this.#tell('mark', u.posToVal(u.cursor.left, 'x'), 0);
     } else if (event.key === 'Escape') {
       u.setCursor({ left: -10, top: -10 }, true, true);
-      tell('mark', NaN, 0);
+      this.#tell('mark', NaN, 0);
     } else {
       return;
     }
@@ -168,10 +174,12 @@ class Chart {
   }
 
   remove() {
+    // What uPlot has put off comes when nobody listens any more.
+    this.#tell = () => {};
     for (const observer of this.#watched) observer.disconnect();
     this.#u.destroy();
   }
 }
 
 /** A chart in an element; `color` is a token of the style sheet. */
-export const chart = (element, color, whole, tell) => new Chart(element, color, whole, tell);
+export const chart = (element, quantity, color, tell) => new Chart(element, quantity, color, tell);

@@ -498,23 +498,3 @@ fn a_session_without_polls_waits_to_be_asked_whatever_comes() {
     assert_eq!(readings(&session, &said).len(), 1);
     assert_eq!(readings(&session, &said)[0].1.turns, Some(7));
 }
-
-#[test]
-fn noise_is_around_the_angle_and_takes_the_turns_along() {
-    for (start, noise) in [(3.0, 2), (2.5, 1), (0.0, 3)] {
-        let mut noisy = encoder("format=rs485 angle-bits=17", Shaft::still(start));
-        noisy.noise = noise;
-        let mut seen = vec![0; 2 * noise as usize + 1];
-        for at in 0..3_000 {
-            let values = noisy.values(at * 1_000);
-            assert_eq!(values, noisy.values(at * 1_000));
-            // Below zero the turns are those of a counter without a sign.
-            let turns = i64::from(values.turns.unwrap() as u16 as i16);
-            let position = turns * 131_072 + values.angle.unwrap() as i64;
-            let off = position - (start * 131_072.0) as i64;
-            seen[(off + i64::from(noise)) as usize] += 1;
-        }
-        let even = 3_000 / seen.len();
-        assert!(seen.iter().all(|count| *count > even / 2), "{seen:?}");
-    }
-}

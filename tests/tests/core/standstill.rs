@@ -3,8 +3,11 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use encoderscope::standstill::{Figures, Standstill};
-use encoderscope_tests::Noise;
+use encoderscope::{
+    emulator::{Emulator, Shaft},
+    standstill::{Figures, Standstill},
+};
+use encoderscope_tests::{Noise, decoder};
 
 fn figures(angle_bits: u32, angles: &[u64]) -> Figures {
     let mut standstill = Standstill::new(angle_bits);
@@ -103,4 +106,25 @@ fn only_the_last_second_counts() {
 fn counts_are_arc_seconds() {
     let found = figures(23, &[1, 2, 3]);
     assert!((found.arcseconds(1.0) - 0.154_495).abs() < 1e-6);
+}
+
+#[test]
+fn noise_is_around_the_angle_and_takes_the_turns_along() {
+    for (start, noise) in [(3.0, 2), (2.5, 1), (0.0, 3)] {
+        let profile = *decoder("format=rs485 angle-bits=17").profile();
+        let mut noisy = Emulator::new(profile, Shaft::still(start)).unwrap();
+        noisy.noise = noise;
+        let mut seen = vec![0; 2 * noise as usize + 1];
+        for at in 0..3_000 {
+            let values = noisy.values(at * 1_000);
+            assert_eq!(values, noisy.values(at * 1_000));
+            // Below zero the turns are those of a counter without a sign.
+            let turns = i64::from(values.turns.unwrap() as u16 as i16);
+            let position = turns * 131_072 + values.angle.unwrap() as i64;
+            let off = position - (start * 131_072.0) as i64;
+            seen[(off + i64::from(noise)) as usize] += 1;
+        }
+        let even = 3_000 / seen.len();
+        assert!(seen.iter().all(|count| *count > even / 2), "{seen:?}");
+    }
 }

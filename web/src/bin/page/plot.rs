@@ -316,28 +316,45 @@ pub(crate) fn PlotPanel() -> impl IntoView {
             |quantity: &Quantity| *quantity == Quantity::Angle || available.contains(quantity);
         view.shown.get().into_iter().filter(has).collect::<Vec<_>>()
     });
+    let chart = move |quantity: Quantity| {
+        let wanted = Memo::new(move |_| drawn.with(|drawn| drawn.contains(&quantity)));
+        move || {
+            wanted
+                .get()
+                .then(|| view! { <ChartView quantity=quantity view=view /> })
+        }
+    };
     let paused = move || view.held.get().is_some();
     let heading = move || match (view.held.get(), view.span.get()) {
-        (Some((from, to)), _) => format!("{from:.2} … {to:.2} s"),
+        (Some(_), _) => "Paused".into(),
         (None, Span::All) => "Since the link was opened".into(),
         (None, span) => format!("Last {}", span.title()),
     };
-    let points = move || plot.with(|plot| plot.traces.first().map_or(0, |trace| trace.times.len()));
+    let stretch = move || {
+        let (from, to) = view.held.get()?;
+        Some(format!("{:.2} … {to:.2} s", from.max(0.0)))
+    };
+    let points = move || {
+        plot.with(|plot| {
+            plot.traces
+                .first()
+                .map_or(0, |trace| trace.times.len())
+                .to_string()
+        })
+    };
     view! {
         <section
             class="panel plot"
             data-testid="plot"
             data-points=points
-            data-from=move || plot.with(|plot| plot.from)
-            data-to=move || plot.with(|plot| plot.to)
+            data-from=move || plot.with(|plot| plot.from.to_string())
+            data-to=move || plot.with(|plot| plot.to.to_string())
             data-paused=move || paused().to_string()
         >
-            <h2>{heading}</h2>
+            <h2>{heading} <span>{stretch}</span></h2>
             <Controls view=view />
             {move || drawn.get().is_empty().then(|| view! { <p class="hint">"Choose what is drawn."</p> })}
-            <For each=move || drawn.get() key=|quantity| quantity.name() let:quantity>
-                <ChartView quantity=quantity view=view />
-            </For>
+            {Quantity::ALL.map(chart).into_iter().collect_view()}
             <div class="below">
                 <Readout view=view />
                 <div class="group" role="group" aria-label="Time that is shown">
@@ -349,6 +366,7 @@ pub(crate) fn PlotPanel() -> impl IntoView {
             </div>
         </section>
     }
+    .into_any()
 }
 
 #[component]
@@ -405,11 +423,12 @@ fn Controls(view: View) -> impl IntoView {
                     title="Draw the angle as large as it fits, not on a whole turn"
                     on:click=move |_| view.height.set(if fits() { Height::Whole } else { Height::Fit })
                 >
-                    "fit"
+                    "fit angle"
                 </button>
             </div>
         </div>
     }
+    .into_any()
 }
 
 #[component]
@@ -419,16 +438,16 @@ fn Readout(view: View) -> impl IntoView {
         <dl
             class="readout"
             data-testid="plot-cursor"
-            data-time=move || view.cursor.get()
-            data-mark=move || view.mark.get()
-            data-delta=move || delta().map(|(time, _)| time)
-            data-value=move || delta().and_then(|(_, apart)| apart)
+            data-time=move || view.cursor.get().map(|time| time.to_string())
+            data-mark=move || view.mark.get().map(|time| time.to_string())
+            data-delta=move || delta().map(|(time, _)| time.to_string())
+            data-value=move || delta().and_then(|(_, apart)| apart).map(|apart| apart.to_string())
         >
             {move || {
                 let rows = view.readout();
                 match rows.is_empty() {
                     true => view! {
-                        <dt class="hint">"Point at a chart to read it, click to set a mark, drag to zoom."</dt>
+                        <dt class="hint">"Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc."</dt>
                     }
                         .into_any(),
                     false => rows
@@ -440,4 +459,5 @@ fn Readout(view: View) -> impl IntoView {
             }}
         </dl>
     }
+    .into_any()
 }

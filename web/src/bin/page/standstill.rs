@@ -58,26 +58,28 @@ pub(crate) fn Standstill() -> impl IntoView {
             .with(|shaft| shaft.read(|rest| rest.arcseconds))
             .unwrap_or(0.0)
     };
-    let row =
-        move |label: &'static str, testid: &'static str, read: fn(&Rest) -> f64, places: usize| {
-            let value = Memo::new(move |_| shaft.with(|shaft| shaft.read(read)));
-            view! {
-                <dt>{label}</dt>
-                <dd data-testid=testid data-value=move || value.get()>
-                    {move || match value.get() {
-                        Some(counts) => format!("{} counts", number(counts, places)),
-                        None => "–".into(),
-                    }}
-                </dd>
-                <dt></dt>
-                <dd class="arc">
-                    {move || match value.get() {
-                        Some(counts) => format!("{:.2}″", counts * scale()),
-                        None => "–".into(),
-                    }}
-                </dd>
-            }
-        };
+    let row = move |label: &'static str,
+                    testid: &'static str,
+                    read: fn(&Rest) -> f64,
+                    places: usize| {
+        let value = Memo::new(move |_| shaft.with(|shaft| shaft.read(read)));
+        view! {
+            <dt>{label}</dt>
+            <dd data-testid=testid data-value=move || value.get().map(|value| value.to_string())>
+                {move || match value.get() {
+                    Some(counts) => format!("{} counts", number(counts, places)),
+                    None => "–".into(),
+                }}
+            </dd>
+            <dt></dt>
+            <dd class="arc">
+                {move || match value.get() {
+                    Some(counts) => format!("{:.2}″", counts * scale()),
+                    None => "–".into(),
+                }}
+            </dd>
+        }
+    };
     view! {
         <section
             class="panel standstill"
@@ -89,9 +91,10 @@ pub(crate) fn Standstill() -> impl IntoView {
                 {row("σ", "standstill-sigma", |rest| rest.sigma, 2)}
                 {row("peak to peak", "standstill-peak", |rest| rest.peak_to_peak, 0)}
             </dl>
-            <Histogram shaft=shaft />
+            <div><Histogram shaft=shaft /></div>
         </section>
     }
+    .into_any()
 }
 
 /// Whole numbers grouped; others only where they are small.
@@ -143,4 +146,5 @@ fn Histogram(shaft: Memo<Shaft>) -> impl IntoView {
             <span>"+" {reach}</span>
         </p>
     }
+    .into_any()
 }

@@ -15,8 +15,8 @@ extern "C" {
     fn chart(
         this: &Charts,
         element: &HtmlElement,
+        quantity: &str,
         color: &str,
-        whole: bool,
         tell: &JsValue,
     ) -> Chart;
 
@@ -60,21 +60,19 @@ fn extremes(trace: &Trace) -> Option<(f64, f64)> {
 /// The range of the axis: round numbers around the values, so that it stays while they vary.
 fn range(quantity: Quantity, height: Height, count: f64, trace: &Trace) -> (f64, f64) {
     let (low, high) = extremes(trace).unwrap_or_default();
-    let least = match (quantity, height) {
+    let (least, ends) = match (quantity, height) {
         (Quantity::Angle, Height::Whole) => return (0.0, 360.0),
-        (Quantity::Angle, Height::Fit) => 8.0 * count,
-        (Quantity::Speed, _) => 0.2,
-        (Quantity::Temperature, _) => 2.0,
-        (Quantity::Errors, _) => return (0.0, rounded(high.max(5.0) * 1.1)),
+        (Quantity::Angle, Height::Fit) => (8.0 * count, (0.0, 360.0)),
+        (Quantity::Speed, _) => (0.2, (f64::MIN, f64::MAX)),
+        (Quantity::Temperature, _) => (2.0, (f64::MIN, f64::MAX)),
+        (Quantity::Errors, _) => (10.0, (0.0, f64::MAX)),
     };
     let spread = (high - low).max(least);
     let step = rounded(spread / 4.0);
     let middle = (low + high) / 2.0;
-    let round = |value: f64| (value / step).floor() * step;
-    (
-        round((middle - spread / 2.0).min(low)),
-        round((middle + spread / 2.0).max(high)) + step,
-    )
+    let low = (low.min(middle - spread / 2.0) / step).floor() * step;
+    let high = (high.max(middle + spread / 2.0) / step).ceil() * step;
+    (low.max(ends.0), high.min(ends.1))
 }
 
 /// The next 1, 2 or 5 of a power of ten.
@@ -85,15 +83,16 @@ fn rounded(value: f64) -> f64 {
     step.unwrap_or(10.0) * unit
 }
 
-/// A value with as many decimals as its quantity deserves.
+/// A value with as many decimals as its quantity deserves, always as wide as its widest.
 pub(super) fn text(quantity: Quantity, value: f64) -> String {
-    let text = match quantity {
-        Quantity::Angle => format!("{value:.4}"),
-        Quantity::Speed => format!("{value:.3}"),
-        Quantity::Temperature => format!("{value:.1}"),
-        Quantity::Errors => format!("{value:.0}"),
+    let (width, places) = match quantity {
+        Quantity::Angle => (9, 4),
+        Quantity::Speed => (8, 3),
+        Quantity::Temperature => (6, 1),
+        Quantity::Errors => (4, 0),
     };
-    format!("{}{}", text.replace('-', "−"), quantity.unit())
+    let text = format!("{value:width$.places$}{}", quantity.unit());
+    text.replace('-', "−")
 }
 
 /// The value that is drawn nearest to a time.
@@ -111,7 +110,7 @@ fn summary(trace: Option<&Trace>, quantity: Quantity) -> String {
     let last = trace.and_then(|trace| trace.values.iter().rev().find(|value| !value.is_nan()));
     match (trace.and_then(extremes), last) {
         (Some((low, high)), Some(last)) => format!(
-            "lowest {} · highest {} · last {}",
+            "lowest{} · highest{} · last{}",
             text(quantity, low),
             text(quantity, high),
             text(quantity, *last)
@@ -138,14 +137,12 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
         let Some(element) = place.get() else {
             return;
         };
-        let whole = quantity == Quantity::Angle;
-        let made =
-            tell.with_value(|tell| {
-                let tell = tell.as_ref()?;
-                Some(charts.with_value(|charts| {
-                    charts.chart(&element, color(quantity), whole, tell.as_ref())
-                }))
-            });
+        let made = tell.with_value(|tell| {
+            let tell = tell.as_ref()?;
+            Some(charts.with_value(|charts| {
+                charts.chart(&element, quantity.name(), color(quantity), tell.as_ref())
+            }))
+        });
         chart.set(made.map(Rc::new));
     });
     Effect::new(move || {
@@ -192,4 +189,5 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
             ></div>
         </figure>
     }
+    .into_any()
 }
