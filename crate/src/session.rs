@@ -234,7 +234,7 @@ impl Session {
     /// let mut session = Session::new(decoder, 0).unwrap();
     /// session.handle_input(0, &[7]);
     /// session.finish();
-    /// let skip = Output::Skip { bytes: vec![7], why: Why::NoFrame };
+    /// let skip = Output::Skip { bytes: vec![7], why: Why::Truncated { have: 1, need: 7 } };
     /// assert_eq!(session.poll_output(), Some(skip));
     /// # Ok::<(), encoderscope::profile::ProfileError>(())
     /// ```
