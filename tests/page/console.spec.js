@@ -92,7 +92,7 @@ test('a browser without Web Serial is told so; demo and decoder work', async ({ 
     delete Navigator.prototype.serial;
   });
   await page.goto('/');
-  await expectLink(page, 'no-serial');
+  await expectLink(page, 'no-api');
   await expect(page.getByText('has no Web Serial')).toBeVisible();
   await expect(at(page, 'connect')).toBeDisabled();
   await expectDemo(page);
@@ -102,7 +102,7 @@ test('a browser without Web Serial is told so; demo and decoder work', async ({ 
 test('a page over plain http is told so; demo and decoder work', async ({ page }) => {
   await page.goto('http://encoderscope.test:8089/');
   expect(await page.evaluate(() => isSecureContext)).toBe(false);
-  await expectLink(page, 'no-serial');
+  await expectLink(page, 'insecure');
   await expect(page.getByText('plain http')).toBeVisible();
   await expect(at(page, 'connect')).toBeDisabled();
   await expectDemo(page);
@@ -147,4 +147,16 @@ test('what is shown and what runs are one profile', async ({ page }) => {
   await page.getByRole('link', { name: 'Console', exact: true }).click();
   await expect(at(page, 'profile')).toContainText('17 bit');
   await expect(page.getByText('/ 131 072 counts')).toBeVisible();
+});
+
+test('a policy that forbids serial ports is named', async ({ page }) => {
+  await page.route('**/', async (route) => {
+    const response = await route.fetch();
+    const headers = { ...response.headers(), 'permissions-policy': 'serial=()' };
+    await route.fulfill({ response, headers });
+  });
+  await page.goto('/');
+  await expectLink(page, 'blocked');
+  await expect(at(page, 'connect')).toBeDisabled();
+  await expectDemo(page);
 });

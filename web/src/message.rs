@@ -340,8 +340,8 @@ pub struct Snapshot {
     pub turning: Option<f64>,
     /// The share of the last replies that were bad or missing.
     pub error_rate: Option<f64>,
-    /// Bytes a second.
-    pub byte_rate: f64,
+    /// Bytes a second, once that is known.
+    pub byte_rate: Option<f64>,
     /// Longest pause within a reply in the last seconds, milliseconds.
     pub gap: Option<f64>,
     /// The devices of a BUS, after a scan.

@@ -31,11 +31,26 @@ pub enum Absent {
     Insecure,
     /// The browser has no Web Serial.
     NoApi,
+    /// A policy forbids it here.
+    Blocked,
 }
 
 fn serial() -> Option<Serial> {
     let serial = property(&property(&js_sys::global(), "navigator"), "serial");
     (!serial.is_undefined() && !serial.is_null()).then(|| serial.unchecked_into())
+}
+
+/// Whether a policy of the page, or of the frame that it stands in, forbids serial ports. Workers
+/// cannot tell.
+fn is_blocked() -> bool {
+    let document = property(&js_sys::global(), "document");
+    if document.is_undefined() {
+        return false;
+    }
+    let policy = property(&document, "featurePolicy");
+    let allows: Option<js_sys::Function> = property(&policy, "allowsFeature").dyn_into().ok();
+    let answer = allows.and_then(|allows| allows.call1(&policy, &"serial".into()).ok());
+    answer.is_some_and(|allowed| allowed.is_falsy())
 }
 
 /// Whether serial ports can be reached from this worker or page.
@@ -48,6 +63,7 @@ pub fn available() -> Result<(), Absent> {
     match serial() {
         _ if !secure => Err(Absent::Insecure),
         None => Err(Absent::NoApi),
+        Some(_) if is_blocked() => Err(Absent::Blocked),
         Some(_) => Ok(()),
     }
 }

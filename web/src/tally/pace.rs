@@ -82,16 +82,14 @@ impl Pace {
         (good + bad > 0).then(|| f64::from(bad) / f64::from(good + bad))
     }
 
-    /// Bytes a second, over whole slots of the last second.
-    pub(super) fn byte_rate(&self, now: Micros) -> f64 {
-        let (last, over) = (now / SLOT, 1_000_000 / SLOT);
-        let bytes: usize = self
-            .slots
-            .iter()
-            .filter(|slot| slot.index < last && slot.index + over >= last)
-            .map(|slot| slot.bytes)
-            .sum();
-        bytes as f64 * 1e6 / (over * SLOT) as f64
+    /// Bytes a second, over all whole slots but the first one; `None` before there are a second of
+    /// them. What a busy machine delivers late still counts.
+    pub(super) fn byte_rate(&self, now: Micros) -> Option<f64> {
+        let (first, last) = (self.slots.front()?.index + 1, now / SLOT);
+        let whole = self.slots.iter().skip(1).filter(|slot| slot.index < last);
+        let bytes: usize = whole.map(|slot| slot.bytes).sum();
+        let took = last.saturating_sub(first) * SLOT;
+        (took >= 1_000_000).then(|| bytes as f64 * 1e6 / took as f64)
     }
 
     /// The longest pause within a reply of the last seconds.

@@ -2,16 +2,15 @@
 
 use crate::{
     adapters, connection::Connection, console::Console, decode::Decode, plot::Feed,
-    theme::ThemeSwitch,
+    ports::Obstacle, theme::ThemeSwitch,
 };
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
-    message::{Link, PortId, Snapshot, ToEngine},
+    message::{PortId, Snapshot, ToEngine},
     serial,
 };
 use leptos::{ev, prelude::*};
-use std::time::Duration;
 
 /// What the dial shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,17 +62,17 @@ pub(crate) struct App {
     pub(crate) ports: RwSignal<Vec<PortId>>,
     pub(crate) port: RwSignal<Option<PortId>>,
     /// What the engine was last started with.
-    running: RwSignal<Option<Profile>>,
+    pub(crate) running: RwSignal<Option<Profile>>,
     /// How often a second the encoder is asked; 0 is as often as it answers.
     pub(crate) pace: RwSignal<f64>,
-    /// Why there is no port, in words.
-    pub(crate) notice: RwSignal<Option<String>>,
+    /// Why there is no port.
+    pub(crate) obstacle: RwSignal<Option<Obstacle>>,
     /// Text of the decode area.
     pub(crate) dump: RwSignal<String>,
     /// The worker has broken down, and an engine on the page has taken over.
     broken: RwSignal<bool>,
     /// A port was plugged in a moment ago.
-    just_plugged: RwSignal<bool>,
+    pub(crate) just_plugged: RwSignal<bool>,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
@@ -94,7 +93,7 @@ impl App {
             port: RwSignal::new(None),
             running: RwSignal::new(None),
             pace: RwSignal::new(0.0),
-            notice: RwSignal::new(None),
+            obstacle: RwSignal::new(None),
             dump: RwSignal::new(String::new()),
             broken,
             just_plugged: RwSignal::new(false),
@@ -111,7 +110,7 @@ impl App {
     /// Starts the built-in encoder with the present profile.
     pub(crate) fn demo(&self, source: Source) {
         self.source.set(source);
-        self.notice.set(None);
+        self.obstacle.set(None);
         let profile = self.readable();
         self.running.set(Some(profile));
         self.send(ToEngine::Demo {
@@ -121,7 +120,7 @@ impl App {
 
     /// The present profile, or the nearest one that the console can read: a dump can be decoded
     /// as more than comes over a serial line.
-    fn readable(&self) -> Profile {
+    pub(crate) fn readable(&self) -> Profile {
         let profile = self.profile.get_untracked();
         if !profile.format.is_serial() {
             Format::T485.default_profile()
@@ -135,140 +134,6 @@ impl App {
         }
     }
 
-    /// Opens the chosen known port, or asks for one when none is known.
-    pub(crate) fn connect(self) {
-        leptos::task::spawn_local(async move {
-            if let Some(port) = self.chosen_port().await {
-                self.open(port);
-            }
-        });
-    }
-
-    /// The chosen port, the first known one, or the one that the user chooses now; where there is
-    /// none, the page says why.
-    async fn chosen_port(self) -> Option<PortId> {
-        self.refresh_ports().await;
-        let known = self.ports.get_untracked();
-        match (self.port.get_untracked(), known.first()) {
-            (Some(chosen), _) => {
-                let index = serial::find(&known, chosen);
-                if index.is_none() {
-                    self.notice.set(Some(
-                        "The adapter is not plugged in, or this page may no longer use it. Plug it \
-                         in, or choose or add a port."
-                            .into(),
-                    ));
-                }
-                index.map(|index| known[index])
-            }
-            (None, Some(port)) => Some(*port),
-            (None, None) => self.ask_port().await,
-        }
-    }
-
-    /// Asks for a port and opens it.
-    pub(crate) async fn add_port(self) {
-        if let Some(port) = self.ask_port().await {
-            self.open(port);
-        }
-    }
-
-    async fn ask_port(self) -> Option<PortId> {
-        match serial::ask().await {
-            Ok(port) => {
-                self.refresh_ports().await;
-                Some(port)
-            }
-            Err(error) => {
-                let (name, message) = encoderscope_web::browser::error_text(&error);
-                self.notice.set(Some(match name.as_str() {
-                    "NotFoundError" => "No port was chosen.".into(),
-                    "SecurityError" => {
-                        "A policy of this browser blocks serial ports on this page.".into()
-                    }
-                    _ => message,
-                }));
-                None
-            }
-        }
-    }
-
-    /// Searches for the encoder: the built-in one where that is read, else on a port.
-    pub(crate) fn find(self) {
-        self.notice.set(None);
-        if self.source.get_untracked() == Source::Demo {
-            let profile = query(&self.readable());
-            return self.send(ToEngine::Find {
-                port: None,
-                profile,
-            });
-        }
-        leptos::task::spawn_local(async move {
-            if let Some(port) = self.chosen_port().await {
-                self.port.set(Some(port));
-                self.source.set(Source::Port);
-                self.send(ToEngine::Find {
-                    port: Some(port),
-                    profile: String::new(),
-                });
-            }
-        });
-    }
-
-    /// Reads the encoder that a search has found, or that the link has shown.
-    pub(crate) fn read_as(self, profile: Profile) {
-        self.change_profile(profile);
-        match (self.source.get_untracked(), self.port.get_untracked()) {
-            (Source::Port, Some(port)) => self.open(port),
-            (source, _) => self.demo(source),
-        }
-    }
-
-    fn open(self, port: PortId) {
-        self.notice.set(None);
-        self.port.set(Some(port));
-        self.source.set(Source::Port);
-        let profile = self.profile.get_untracked();
-        adapters::remember(port, &profile);
-        self.running.set(Some(profile));
-        self.send(ToEngine::Open {
-            port,
-            profile: query(&profile),
-        });
-    }
-
-    /// A port was plugged in: reads on where reading ended with the plug pulled out.
-    fn plugged(self) {
-        let lost = self.snapshot.get_untracked().link == Link::Lost;
-        if lost && self.source.get_untracked() == Source::Port {
-            self.connect();
-        } else {
-            leptos::task::spawn_local(self.refresh_ports());
-            self.just_plugged.set(true);
-            set_timeout(
-                move || self.just_plugged.set(false),
-                Duration::from_millis(500),
-            );
-        }
-    }
-
-    /// Reads on where the news of a plug put back has overtaken that of its being pulled out.
-    fn follow_plug(self) {
-        let lost = self.snapshot.get().link == Link::Lost;
-        if lost && self.just_plugged.get() && self.source.get_untracked() == Source::Port {
-            self.just_plugged.set(false);
-            self.connect();
-        }
-    }
-
-    /// Chooses a port, and the encoder that was behind it last.
-    pub(crate) fn choose_port(self, port: PortId) {
-        self.port.set(Some(port));
-        if let Some(profile) = adapters::recall(port) {
-            self.change_profile(profile);
-        }
-    }
-
     /// Asks so many times a second.
     pub(crate) fn set_pace(self, rate: f64) {
         self.pace.set(rate);
@@ -278,12 +143,6 @@ impl App {
     /// Stops reading.
     pub(crate) fn disconnect(&self) {
         self.send(ToEngine::Close);
-    }
-
-    async fn refresh_ports(self) {
-        if let Ok(ports) = serial::known().await {
-            self.ports.set(ports);
-        }
     }
 
     /// Takes over a new profile.
@@ -356,9 +215,7 @@ pub(crate) fn app(make_worker: &js_sys::Function) -> impl IntoView + use<> {
     Effect::new(move || {
         if app.broken.get() {
             match app.source.get_untracked() {
-                Source::Port => app
-                    .notice
-                    .set(Some("The reader broke down. Connect again.".into())),
+                Source::Port => app.obstacle.set(Some(Obstacle::BrokeDown)),
                 source => app.demo(source),
             }
         }

@@ -8,15 +8,13 @@ use crate::{
     live::{Angle, Status},
     log::Frames,
     plot::PlotPanel,
+    ports::Obstacle,
     profile_editor::{Offer, ProfileEditor},
     setting::SettingPanel,
     standstill::Standstill,
     zero_wire::ZeroWire,
 };
-use encoderscope_web::{
-    message::Link,
-    serial::{self, Absent},
-};
+use encoderscope_web::{message::Link, serial};
 use leptos::prelude::*;
 
 #[component]
@@ -41,20 +39,6 @@ pub(crate) fn Console() -> impl IntoView {
                 <Frames />
             </div>
         </div>
-    }
-}
-
-/// Why no port can be reached, and what to do.
-pub(crate) const fn absent_text(absent: Absent) -> &'static str {
-    match absent {
-        Absent::Insecure => {
-            "This page came over plain http, where browsers give no access to serial ports. \
-             Open it over https or from localhost. The demo and the decoder work here."
-        }
-        Absent::NoApi => {
-            "This browser has no Web Serial. Chrome, Edge or another Chromium browser on a \
-             computer can read the encoder. The demo and the decoder work here."
-        }
     }
 }
 
@@ -83,10 +67,25 @@ pub(crate) fn DemoButton() -> impl IntoView {
     }
 }
 
+/// What stands in the way of a port.
+#[component]
+fn ObstacleNote() -> impl IntoView {
+    let app = expect_context::<App>();
+    let obstacle = move || Obstacle::of_browser().or_else(|| app.obstacle.get());
+    move || {
+        obstacle().map(|obstacle| {
+            view! {
+                <p class="notice" role="alert" data-testid="link-state" data-value=obstacle.name()>
+                    {obstacle.text()}
+                </p>
+            }
+        })
+    }
+}
+
 /// The first view: what this is, and three doors.
 #[component]
 fn Welcome() -> impl IntoView {
-    let app = expect_context::<App>();
     view! {
         <section class="panel welcome">
             <h1>"Reads absolute encoders in the browser"</h1>
@@ -100,10 +99,7 @@ fn Welcome() -> impl IntoView {
                 {serial::available().is_ok().then(|| view! { <FindButton /> })}
                 <a class="button" href="#/decode">"Paste a dump"</a>
             </div>
-            {serial::available().err().map(|absent| view! {
-                <p class="notice" data-testid="link-state" data-value="no-serial">{absent_text(absent)}</p>
-            })}
-            {move || app.notice.get().map(|notice| view! { <p class="fault" role="alert">{notice}</p> })}
+            <ObstacleNote />
             <details>
                 <summary>"Encoder settings"</summary>
                 <ProfileEditor offer=Offer::Serial />

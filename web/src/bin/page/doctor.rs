@@ -1,6 +1,9 @@
 //! The connection doctor: a ladder of states, each with its evidence, and what to try next.
 
-use crate::app::{App, Source, summary};
+use crate::{
+    app::{App, Source, summary},
+    ports::Obstacle,
+};
 use encoderscope::{
     adapter::Made,
     decode::Decoder,
@@ -70,7 +73,10 @@ const fn height(link: &Link) -> (usize, bool) {
 fn ladder(app: App) -> Vec<Rung> {
     let snapshot = app.snapshot.get();
     let profile = app.profile.get();
-    let (height, fails) = height(&snapshot.link);
+    let (height, fails) = match obstacle(app) {
+        Some(_) => (0, true),
+        None => height(&snapshot.link),
+    };
     let total = snapshot.counts.good + snapshot.counts.bad;
     let percent = snapshot.error_rate.map_or(0.0, |rate| rate * 100.0);
     let baud = match app.source.get() {
@@ -136,6 +142,14 @@ fn ladder(app: App) -> Vec<Rung> {
         .collect()
 }
 
+/// What stands in the way of the port that the user wants.
+fn obstacle(app: App) -> Option<Obstacle> {
+    let wanted = app.source.get() == Source::Port || app.obstacle.get().is_some();
+    wanted
+        .then(|| Obstacle::of_browser().or_else(|| app.obstacle.get()))
+        .flatten()
+}
+
 /// A baud rate in few digits.
 fn short(rate: f64) -> String {
     match rate {
@@ -180,7 +194,9 @@ fn answer_text(snapshot: &Snapshot) -> String {
 
 /// Bytes a second, against what the rate can carry and the encoder should send.
 fn rate_text(snapshot: &Snapshot, profile: &Profile) -> String {
-    let seen = snapshot.byte_rate;
+    let Some(seen) = snapshot.byte_rate else {
+        return String::new();
+    };
     let most = f64::from(profile.baud) / 10.0;
     let text = format!("{} bytes/s", grouped(seen as u64));
     if seen > most * 1.05 {
@@ -279,20 +295,30 @@ pub(crate) fn LinkState() -> impl IntoView {
     let app = expect_context::<App>();
     let link = Memo::new(move |_| app.snapshot.get().link);
     let rungs = Memo::new(move |_| ladder(app));
-    let failed = Memo::new(move |_| {
-        let (_, fails) = height(&link.get());
-        fails
+    let obstacle = Memo::new(move |_| obstacle(app));
+    let fails = Memo::new(move |_| obstacle.get().is_some() || height(&link.get()).1);
+    let name = move || {
+        let obstacle = obstacle.get();
+        obstacle.map_or_else(|| link.get().name(), |obstacle| obstacle.name())
+    };
+    let text = Memo::new(move |_| match obstacle.get() {
+        Some(obstacle) => ("No port".to_owned(), obstacle.text()),
+        None => {
+            let (title, hint) = link_text(&link.get(), app);
+            (title.to_owned(), hint)
+        }
     });
-    let hint = Memo::new(move |_| link_text(&link.get(), app).1);
     let other = move || match link.get() {
         Link::OtherProfile { profile } => Some(profile),
         Link::Unasked { profile } => profile,
         _ => None,
     };
     view! {
-        <div class="state" data-testid="link-state" data-value=move || link.get().name() role="status">
-            <p class=move || if failed.get() { "lamp bad" } else { "named" }>{move || link_text(&link.get(), app).0}</p>
-            {move || Some(hint.get()).filter(|hint| !hint.is_empty()).map(|hint| view! { <p class="hint">{hint}</p> })}
+        <div class="state" data-testid="link-state" data-value=name role="status">
+            <p class=move || if fails.get() { "lamp bad" } else { "named" }>{move || text.get().0}</p>
+            {move || Some(text.get().1).filter(|hint| !hint.is_empty()).map(|hint| view! {
+                <p class="hint" role=obstacle.get().map(|_| "alert")>{hint}</p>
+            })}
         </div>
         {move || other().and_then(|text| link::profile(&text).ok()).map(|profile| view! {
             <p class="suggestion" data-testid="suggestion" data-value=link::query(&profile)>

@@ -3,7 +3,7 @@
 use crate::{
     adapters,
     app::{App, Source},
-    console::{ConnectButton, DemoButton, absent_text},
+    console::{ConnectButton, DemoButton},
     demo::DemoKnobs,
     doctor::LinkState,
     finder::FindButton,
@@ -33,8 +33,6 @@ pub(crate) fn LinkPanel() -> impl IntoView {
             <h2>"Link"</h2>
             <p class="name">{title}</p>
             <LinkState />
-            {move || app.notice.get().map(|notice| view! { <p class="fault" role="alert">{notice}</p> })}
-            {serial::available().err().map(|absent| view! { <p class="notice">{absent_text(absent)}</p> })}
             <div class="doors">
                 {move || {
                     if open.get() {

@@ -44,7 +44,7 @@ pub(crate) fn Frames() -> impl IntoView {
         (LogFilter::Received, "received"),
         (LogFilter::Sent, "sent"),
         (LogFilter::Faults, "faults"),
-        (LogFilter::Beside, "beside"),
+        (LogFilter::Beside, "other"),
     ];
     view! {
         <section class="panel frames">

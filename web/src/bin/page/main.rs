@@ -21,6 +21,7 @@ mod link_panel;
 mod live;
 mod log;
 mod plot;
+mod ports;
 mod profile_editor;
 mod setting;
 mod standstill;

@@ -1,0 +1,221 @@
+//! Ports: choosing, opening, searching, plugging, and what stands in the way.
+
+use crate::{
+    adapters,
+    app::{App, Source},
+};
+use encoderscope::profile::Profile;
+use encoderscope_web::{
+    browser::error_text,
+    link::query,
+    message::{Link, PortId, ToEngine},
+    serial::{self, Absent},
+};
+use leptos::prelude::*;
+use std::time::Duration;
+
+/// Why there is no port.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Obstacle {
+    /// The browser has no Web Serial.
+    NoApi,
+    /// The page came over plain http.
+    Insecure,
+    /// A policy forbids serial ports.
+    Blocked,
+    /// The user chose none.
+    NothingChosen,
+    /// The chosen port is not among the known ones.
+    NotPluggedIn,
+    /// The engine broke down.
+    BrokeDown,
+    /// What the browser says.
+    Other(String),
+}
+
+impl Obstacle {
+    /// What keeps this browser from serial ports altogether.
+    pub(crate) fn of_browser() -> Option<Self> {
+        serial::available().err().map(|absent| match absent {
+            Absent::Insecure => Self::Insecure,
+            Absent::NoApi => Self::NoApi,
+            Absent::Blocked => Self::Blocked,
+        })
+    }
+
+    /// One word for each.
+    pub(crate) const fn name(&self) -> &'static str {
+        match self {
+            Self::NoApi => "no-api",
+            Self::Insecure => "insecure",
+            Self::Blocked => "blocked",
+            Self::NothingChosen => "nothing-chosen",
+            Self::NotPluggedIn => "not-plugged-in",
+            Self::BrokeDown => "broke-down",
+            Self::Other(_) => "no-port",
+        }
+    }
+
+    /// What it is, and what to do about it.
+    pub(crate) fn text(&self) -> String {
+        let text = match self {
+            Self::NoApi => {
+                "This browser has no Web Serial. Chrome, Edge or another Chromium browser on a \
+                 computer can read the encoder. The demo and the decoder work here."
+            }
+            Self::Insecure => {
+                "This page came over plain http, where browsers give no access to serial ports. \
+                 Open it over https or from localhost. The demo and the decoder work here."
+            }
+            Self::Blocked => {
+                "A policy blocks serial ports on this page: ask who manages this computer, or, \
+                 where the page stands in a frame, let the frame allow \u{201c}serial\u{201d}. The demo and the \
+                 decoder work here."
+            }
+            Self::NothingChosen => "No port was chosen.",
+            Self::NotPluggedIn => {
+                "The adapter is not plugged in, or this page may no longer use it. Plug it in, or \
+                 choose or add a port."
+            }
+            Self::BrokeDown => "The reader broke down. Connect again.",
+            Self::Other(text) => text,
+        };
+        text.into()
+    }
+}
+
+impl App {
+    /// Opens the chosen known port, or asks for one when none is known.
+    pub(crate) fn connect(self) {
+        leptos::task::spawn_local(async move {
+            if let Some(port) = self.chosen_port().await {
+                self.open(port);
+            }
+        });
+    }
+
+    /// The chosen port, the first known one, or the one that the user chooses now; where there is
+    /// none, the page says why.
+    async fn chosen_port(self) -> Option<PortId> {
+        self.refresh_ports().await;
+        let known = self.ports.get_untracked();
+        match (self.port.get_untracked(), known.first()) {
+            (Some(chosen), _) => {
+                let index = serial::find(&known, chosen);
+                if index.is_none() {
+                    self.obstacle.set(Some(Obstacle::NotPluggedIn));
+                }
+                index.map(|index| known[index])
+            }
+            (None, Some(port)) => Some(*port),
+            (None, None) => self.ask_port().await,
+        }
+    }
+
+    /// Asks for a port and opens it.
+    pub(crate) async fn add_port(self) {
+        if let Some(port) = self.ask_port().await {
+            self.open(port);
+        }
+    }
+
+    async fn ask_port(self) -> Option<PortId> {
+        match serial::ask().await {
+            Ok(port) => {
+                self.refresh_ports().await;
+                Some(port)
+            }
+            Err(error) => {
+                let (name, message) = error_text(&error);
+                self.obstacle.set(Some(match name.as_str() {
+                    "NotFoundError" => Obstacle::NothingChosen,
+                    "SecurityError" => Obstacle::Blocked,
+                    _ => Obstacle::Other(message),
+                }));
+                None
+            }
+        }
+    }
+
+    /// Searches for the encoder: the built-in one where that is read, else on a port.
+    pub(crate) fn find(self) {
+        self.obstacle.set(None);
+        if self.source.get_untracked() == Source::Demo {
+            let profile = query(&self.readable());
+            return self.send(ToEngine::Find {
+                port: None,
+                profile,
+            });
+        }
+        leptos::task::spawn_local(async move {
+            if let Some(port) = self.chosen_port().await {
+                self.port.set(Some(port));
+                self.source.set(Source::Port);
+                self.send(ToEngine::Find {
+                    port: Some(port),
+                    profile: String::new(),
+                });
+            }
+        });
+    }
+
+    /// Reads the encoder that a search has found, or that the link has shown.
+    pub(crate) fn read_as(self, profile: Profile) {
+        self.change_profile(profile);
+        match (self.source.get_untracked(), self.port.get_untracked()) {
+            (Source::Port, Some(port)) => self.open(port),
+            (source, _) => self.demo(source),
+        }
+    }
+
+    fn open(self, port: PortId) {
+        self.obstacle.set(None);
+        self.port.set(Some(port));
+        self.source.set(Source::Port);
+        let profile = self.profile.get_untracked();
+        adapters::remember(port, &profile);
+        self.running.set(Some(profile));
+        self.send(ToEngine::Open {
+            port,
+            profile: query(&profile),
+        });
+    }
+
+    /// A port was plugged in: reads on where reading ended with the plug pulled out.
+    pub(crate) fn plugged(self) {
+        let lost = self.snapshot.get_untracked().link == Link::Lost;
+        if lost && self.source.get_untracked() == Source::Port {
+            self.connect();
+        } else {
+            leptos::task::spawn_local(self.refresh_ports());
+            self.just_plugged.set(true);
+            set_timeout(
+                move || self.just_plugged.set(false),
+                Duration::from_millis(500),
+            );
+        }
+    }
+
+    /// Reads on where the news of a plug put back has overtaken that of its being pulled out.
+    pub(crate) fn follow_plug(self) {
+        let lost = self.snapshot.get().link == Link::Lost;
+        if lost && self.just_plugged.get() && self.source.get_untracked() == Source::Port {
+            self.just_plugged.set(false);
+            self.connect();
+        }
+    }
+
+    /// Chooses a port, and the encoder that was behind it last.
+    pub(crate) fn choose_port(self, port: PortId) {
+        self.port.set(Some(port));
+        if let Some(profile) = adapters::recall(port) {
+            self.change_profile(profile);
+        }
+    }
+
+    pub(crate) async fn refresh_ports(self) {
+        if let Ok(ports) = serial::known().await {
+            self.ports.set(ports);
+        }
+    }
+}
