@@ -2,18 +2,13 @@
 //! memory.
 
 mod series;
+mod tacho;
 
 pub use series::{Point, Scale, Series};
 
 use crate::session::Micros;
-use alloc::collections::VecDeque;
+use tacho::Tacho;
 
-/// A speed is derived from the angles of this time.
-const SPEED_OVER: Micros = 100_000;
-/// Angles over more than this are too few for a speed.
-const SPEED_SPREAD: Micros = SPEED_OVER / 2;
-/// No more angles than this are kept for it.
-const SPEED_ANGLES: usize = 1_024;
 /// Errors are counted in slots of this length.
 const SLOT: Micros = 100_000;
 /// Slots in the second over which errors are added up.
@@ -24,6 +19,8 @@ const SLOTS: usize = 10;
 pub struct Sample {
     /// Degrees, 0 ≤ d < 360.
     pub degrees: f64,
+    /// Whole turns, where the frame says them.
+    pub turns: Option<f64>,
     /// Revolutions per second, where the frame says it.
     pub speed: Option<f64>,
     /// Degrees Celsius, where the frame says it.
@@ -52,6 +49,7 @@ pub struct History {
     temperature: Series,
     errors: Series,
     tacho: Tacho,
+    turning: Option<f64>,
     failures: Failures,
 }
 
@@ -71,16 +69,19 @@ impl History {
             temperature: Series::new(Scale::Line),
             errors: Series::new(Scale::Line),
             tacho: Tacho::default(),
+            turning: None,
             failures: Failures::default(),
         }
     }
 
     /// Takes a good frame. Where it says no speed, that follows from the angles of the last
-    /// 100 ms, as long as neighbours are less than half a turn apart.
+    /// 100 ms, or from the last two where the turns are counted too; without the turns, neighbours
+    /// must be less than half a turn apart.
     pub fn take(&mut self, at: Micros, sample: &Sample) {
         self.angle.push(at, sample.degrees);
-        let derived = || self.tacho.take(at, sample.degrees);
-        if let Some(speed) = sample.speed.or_else(derived) {
+        let derived = || self.tacho.take(at, sample.degrees, sample.turns);
+        self.turning = sample.speed.or_else(derived);
+        if let Some(speed) = self.turning {
             self.speed.push(at, speed);
         }
         if let Some(temperature) = sample.temperature {
@@ -98,6 +99,13 @@ impl History {
     /// The angle was set: what was before it says nothing about the speed.
     pub fn jump(&mut self) {
         self.tacho = Tacho::default();
+        self.turning = None;
+    }
+
+    /// How fast the shaft turned at the last frame, in revolutions per second, where that is known.
+    #[must_use]
+    pub const fn turning(&self) -> Option<f64> {
+        self.turning
     }
 
     /// When the first frame came, and the last, good or bad.
@@ -131,53 +139,6 @@ impl History {
     #[must_use]
     pub const fn errors(&self) -> &Series {
         &self.errors
-    }
-}
-
-/// Derives a speed from angles.
-#[derive(Clone, Debug, Default)]
-struct Tacho {
-    /// Times, and turns counted on from the first angle.
-    turns: VecDeque<(Micros, f64)>,
-}
-
-impl Tacho {
-    /// Takes an angle in degrees; gives revolutions per second.
-    fn take(&mut self, at: Micros, degrees: f64) -> Option<f64> {
-        let part = degrees / 360.0;
-        let turns = match self.turns.back() {
-            Some((before, last)) if at.saturating_sub(*before) <= SPEED_OVER => {
-                last + shortest_way(part - last)
-            }
-            _ => {
-                self.turns.clear();
-                part
-            }
-        };
-        if !turns.is_finite() {
-            self.turns.clear();
-            return None;
-        }
-        let old = |(before, _): &(Micros, f64)| at.saturating_sub(*before) > SPEED_OVER;
-        while self.turns.front().is_some_and(old) || self.turns.len() >= SPEED_ANGLES {
-            self.turns.pop_front();
-        }
-        self.turns.push_back((at, turns));
-        let (from, start) = self.turns.front()?;
-        let over = at.saturating_sub(*from);
-        (over >= SPEED_SPREAD).then(|| (turns - start) * 1e6 / over as f64)
-    }
-}
-
-/// A difference of turns without the whole ones: between −½ and ½.
-fn shortest_way(apart: f64) -> f64 {
-    let part = apart % 1.0;
-    if part > 0.5 {
-        part - 1.0
-    } else if part < -0.5 {
-        part + 1.0
-    } else {
-        part
     }
 }
 

@@ -160,6 +160,12 @@ impl Trail {
         self.standstill.clear();
     }
 
+    /// How fast the shaft turns, in revolutions per second, where that is known.
+    #[must_use]
+    pub const fn turning(&self) -> Option<f64> {
+        self.history.turning()
+    }
+
     /// What there is to plot; `now` is `None` where the link is closed and time stands still.
     #[must_use]
     pub fn plot(&self, now: Option<Micros>, request: &PlotRequest) -> Plot {

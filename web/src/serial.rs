@@ -99,7 +99,9 @@ pub fn find(listed: &[PortId], wanted: PortId) -> Option<usize> {
 }
 
 async fn ports() -> Result<Vec<SerialPort>, JsValue> {
-    let serial = serial().ok_or_else(|| JsValue::from_str("no Web Serial"))?;
+    // Asking where it is forbidden would only be a complaint in the browser's console.
+    let serial = available().ok().and_then(|()| serial());
+    let serial = serial.ok_or_else(|| JsValue::from_str("no Web Serial"))?;
     let list: Array = JsFuture::from(serial.get_ports()).await?.unchecked_into();
     Ok(list.iter().map(JsCast::unchecked_into).collect())
 }

@@ -252,10 +252,10 @@ impl Tally {
             self.places.push_back(Place {
                 at: now,
                 part: shown.degrees / 360.0,
-                turns: shown.turns,
             });
             let sample = Sample {
                 degrees: shown.degrees,
+                turns: shown.turns,
                 speed: shown.speed,
                 temperature: shown.temperature,
             };
@@ -315,7 +315,7 @@ impl Tally {
             },
             moved: self.moved(now),
             progress: self.progress.clone(),
-            turning: self.turning(),
+            turning: self.trail.turning(),
             error_rate: self.pace.error_rate(now),
             byte_rate: self.pace.byte_rate(now),
             gap: self.pace.gap(now).map(|gap| gap as f64 / 1000.0),

@@ -284,6 +284,7 @@ fn speed_is_the_encoders_own_or_follows_from_the_angle_over_zero() {
     for index in 0..1_000u64 {
         let sample = Sample {
             degrees: 1.0,
+            turns: None,
             speed: Some(3.5),
             temperature: Some(31.2),
         };
@@ -314,6 +315,35 @@ fn a_speed_does_not_reach_over_a_pause_or_a_new_zero() {
     let points = history.speed().points(0, 10 * SECOND, 1_000_000);
     let drawn = extremes(points.iter().filter_map(|point| point.value));
     assert_eq!(drawn, Some((0.0, 0.0)));
+}
+
+#[test]
+fn counted_turns_give_a_speed_from_frames_far_apart() {
+    let at_speed = |speed: f64, apart: u64, counted: bool| {
+        let mut history = History::new();
+        for index in 0..100u64 {
+            // The counter of 16 bits begins anew on the way.
+            let turned = 65_530.0 + speed * (index * apart) as f64 / 1e6;
+            let turns = turned.floor() % 65_536.0;
+            history.take(
+                index * apart,
+                &Sample {
+                    degrees: turned.fract() * 360.0,
+                    turns: counted.then_some(turns),
+                    ..Sample::default()
+                },
+            );
+        }
+        history.turning()
+    };
+    for apart in [1_000, 50_000, 100_000, 1_000_000] {
+        let speed = at_speed(7.3, apart, true).unwrap();
+        assert!((speed - 7.3).abs() < 1e-6, "{apart}: {speed}");
+    }
+    assert!((at_speed(2.4, 50_000, false).unwrap() - 2.4).abs() < 1e-6);
+    // Without the turns nobody knows how often it went round meanwhile.
+    assert_eq!(at_speed(7.3, 1_000_000, false), None);
+    assert_eq!(at_speed(7.3, 3_000_000, true), None);
 }
 
 #[test]
