@@ -346,6 +346,8 @@ pub struct Snapshot {
     pub gap: Option<f64>,
     /// The devices of a BUS, after a scan.
     pub devices: Vec<Device>,
+    /// The one of them on the dial, to which settings go.
+    pub watched: Option<u32>,
     /// What the last scan said, in words.
     pub scan: Option<String>,
     /// The search for an encoder that runs or has run last.

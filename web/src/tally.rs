@@ -324,6 +324,7 @@ impl Tally {
                 .iter()
                 .map(|device| device.shown(now))
                 .collect(),
+            watched: self.watched(),
             scan: self.scan.clone(),
             search: self.search.clone(),
             memory: self.memory,

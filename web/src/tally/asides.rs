@@ -110,6 +110,15 @@ impl Tally {
         self.devices.iter().map(|device| device.address).collect()
     }
 
+    /// The device on the dial, among several.
+    pub(super) fn watched(&self) -> Option<u32> {
+        let decoder = self.decoder.as_ref();
+        let several = !self.devices.is_empty();
+        decoder
+            .filter(|_| several)
+            .map(|decoder| decoder.profile().address)
+    }
+
     /// How far a search is.
     pub fn searched(&mut self, finder: &Finder) {
         let trials = finder.trials().iter().map(|trial| Trial {

@@ -152,11 +152,8 @@ impl App {
     }
 
     /// The device that is being read has a new address: nothing needs to be opened again.
-    pub(crate) fn adopt_address(self, address: u8) {
-        let moved = |profile: Profile| Profile {
-            address: u32::from(address),
-            ..profile
-        };
+    pub(crate) fn adopt_address(self, address: u32) {
+        let moved = |profile: Profile| Profile { address, ..profile };
         self.running.update(|running| *running = running.map(moved));
         self.profile.update(|profile| *profile = moved(*profile));
     }

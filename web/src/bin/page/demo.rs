@@ -61,7 +61,7 @@ fn Reports(app: App) -> impl IntoView {
     // A profile that changes makes another encoder, which is well.
     Effect::new(move || {
         app.profile.track();
-        knobs.set(Knobs::default());
+        set(&|knobs| *knobs = Knobs::default());
     });
     let carries_status = move || !matches!(app.profile.get().format, Format::Asi1 | Format::Asi4);
     let bit = move |place: u32| bits::low_byte(bits::placed(1, place));

@@ -21,14 +21,11 @@ pub(crate) fn DevicesPanel() -> impl IntoView {
             .map(|device| device.address)
             .collect::<Vec<_>>()
     });
-    // Where the address of the settings does not answer, the first that does is shown.
+    let watched = Memo::new(move |_| app.snapshot.get().watched);
+    // The engine says which device is on the dial: settings go to that one.
     Effect::new(move || {
-        let own = app.profile.get_untracked().address;
-        let addresses = addresses.get();
-        if let Some(first) = addresses.first()
-            && !addresses.iter().any(|address| u32::from(*address) == own)
-        {
-            app.adopt_address(*first);
+        if let Some(address) = watched.get() {
+            app.adopt_address(address);
         }
     });
     move || {
@@ -95,10 +92,7 @@ fn Tile(address: u8) -> impl IntoView {
             data-address=address.to_string()
             data-value=angle
             data-fresh=move || device.get().is_some_and(|device| device.fresh).to_string()
-            on:click=move |_| {
-                app.send(ToEngine::Watch(address));
-                app.adopt_address(address);
-            }
+            on:click=move |_| app.send(ToEngine::Watch(address))
         >
             <span class="address">"address " {address.to_string()}</span>
             <b>{text}</b>

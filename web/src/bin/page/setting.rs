@@ -84,7 +84,7 @@ pub(crate) fn SettingPanel() -> impl IntoView {
             ..
         }) = progress.get()
         {
-            app.adopt_address(address);
+            app.adopt_address(address.into());
         }
     });
     let doors = move || {
