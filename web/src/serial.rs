@@ -135,7 +135,7 @@ pub async fn ask() -> Result<PortId, JsValue> {
 
 /// Runs `then` whenever a port that the page has permission for is plugged in.
 pub fn on_plugged(then: impl Fn() + 'static) {
-    if let Some(serial) = serial() {
+    if let (Ok(()), Some(serial)) = (available(), serial()) {
         let listen = Closure::<dyn Fn()>::new(then);
         serial.set_onconnect(Some(listen.as_ref().unchecked_ref()));
         listen.forget();
