@@ -57,7 +57,7 @@ pub static CHIPS: &[Chip] = &[
     chip(0x0403, 0x6011, "FT4232H", Clock::Eighths(12_000_000)),
     chip(0x0403, 0x6014, "FT232H", Clock::Eighths(12_000_000)),
     chip(0x0403, 0x6015, "FT230X", Clock::Eighths(3_000_000)),
-    chip(0x067b, 0x2303, "PL2303", Clock::UpTo(1_228_800)),
+    chip(0x067b, 0x2303, "PL2303", Clock::Unknown),
     chip(0x10c4, 0xea60, "CP210x", Clock::Unknown),
     chip(0x1a86, 0x55d3, "CH343", Clock::Unknown),
     chip(0x1a86, 0x7523, "CH340", Clock::UpTo(2_000_000)),

@@ -25,8 +25,8 @@ use alloc::{
 const ENOUGH_TEXT: usize = 8_000;
 /// Bits of evidence for each verdict, and the lead that sets a candidate apart.
 const CERTAIN: i32 = 40;
-const LIKELY: i32 = 8;
-const LEAD: i32 = 4;
+pub(crate) const LIKELY: i32 = 8;
+pub(crate) const LEAD: i32 = 4;
 /// Against: a frame that fails, a byte of no frame, a width whose top bit was never seen set.
 const FAILS: i32 = 6;
 const SKIPPED: i32 = 1;

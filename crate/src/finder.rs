@@ -3,13 +3,15 @@
 //!
 //! At each rate it listens first, since free-running encoders tell by themselves; where the line
 //! is quiet it asks what only reads ([`Ask`]), one request at a time, and waits until the line is
-//! quiet again. Requests go out only at rates so far apart that a device at another one hears
-//! zeros at most, and of RS485 only `d`, `s` and `t`: the byte of `1` is *set zero* to a
-//! device of a BUS.
+//! quiet again. Requests go out only at rates so far apart that a device at another one of the
+//! manuals hears zeros at most, and of RS485 only `d`, `s` and `t`: the byte of `1` is *set zero*
+//! to a device of a BUS. An adapter that runs at a rate in between could turn a request
+//! into a command; it takes ten of those in a row to change anything, so no request is
+//! repeated before others have gone out, nor where nothing intelligible came back.
 //!
 //! | baud | listens | asks |
 //! |---|---|---|
-//! | 2 500 000 | PERIOD | T485 *all*; RS485 `d`, `s`, `t`; BUS *get* to all 32 addresses |
+//! | 2 500 000 | PERIOD | T485 *all*, *angle*; RS485 `d`, `s`, `t`; BUS *get* to all 32 addresses |
 //! | 115 200 | PERIOD | RS485 `d`, `s`, `t` |
 //! | 230 400 | ASI1, ASI4 | nothing |
 //!
@@ -20,7 +22,7 @@ mod weigh;
 
 use crate::{
     decode::Decoder,
-    detect::Verdict,
+    detect::{LEAD, LIKELY, Verdict},
     format::{Format, rs485::Command, t485::Request},
     profile::Profile,
     session::{Ask, Micros, QUIET, TIMEOUT},
@@ -37,8 +39,10 @@ const STREAM: usize = 24;
 const ENOUGH: usize = 4_096;
 /// How long a device of a BUS may take when all addresses are asked in turn.
 const SCAN_TIMEOUT: Micros = 50_000;
+/// How long a line that talks is borne with before it is asked anything, in microseconds.
+const PATIENCE: Micros = 1_000_000;
 /// How often what has been answered is asked again.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 12;
 /// Addresses on a BUS.
 const ADDRESSES: u8 = 32;
 
@@ -103,6 +107,20 @@ pub struct Trial {
     pub requests: u32,
     /// Bytes that came.
     pub bytes: usize,
+    /// Whether it was tried at all: the adapter may not make the rate.
+    pub tried: bool,
+}
+
+impl Trial {
+    const fn left_out(plan: &Plan) -> Self {
+        Self {
+            baud: plan.baud,
+            format: None,
+            requests: 0,
+            bytes: 0,
+            tried: false,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,10 +132,11 @@ enum State {
         since: Micros,
         until: Micros,
     },
-    /// The next request goes out at this time, when the line has been quiet.
-    Ready(Micros),
-    /// A request is out; what has come is judged at this time.
-    Waiting(Micros),
+    /// The next request goes out at this time, when the line has been quiet, which is waited for
+    /// until the second one.
+    Ready(Micros, Micros),
+    /// A request is out; what has come is judged at this time, and at the second one at the latest.
+    Waiting(Micros, Micros),
     Ended,
 }
 
@@ -144,6 +163,10 @@ pub struct Finder {
     asked: Asked,
     state: State,
     received: Vec<u8>,
+    /// Bytes since the present listening or asking began.
+    heard: usize,
+    /// The line was never quiet.
+    restless: bool,
     trials: Vec<Trial>,
     found: Vec<Found>,
     /// Addresses of a BUS at which something came that no check holds for.
@@ -161,8 +184,15 @@ impl Finder {
     /// A search over all formats that come over a serial line.
     #[must_use]
     pub fn new() -> Self {
+        Self::through(|_| true)
+    }
+
+    /// The same through an adapter that makes some baud rates; others are left out, since what is
+    /// sent at a wrong rate may be heard as anything.
+    pub fn through(makes: impl Fn(u32) -> bool) -> Self {
+        let (plans, left_out) = PLANS.iter().partition::<Vec<_>, _>(|plan| makes(plan.baud));
         let mut finder = Self {
-            plans: PLANS.iter().copied().collect(),
+            plans: plans.into_iter().copied().collect(),
             formats: VecDeque::new(),
             known: None,
             queue: VecDeque::new(),
@@ -170,7 +200,9 @@ impl Finder {
             asked: Asked::default(),
             state: State::Opening,
             received: Vec::new(),
-            trials: Vec::new(),
+            heard: 0,
+            restless: false,
+            trials: left_out.into_iter().map(Trial::left_out).collect(),
             found: Vec::new(),
             disturbed: Vec::new(),
             output: VecDeque::new(),
@@ -218,13 +250,21 @@ impl Finder {
         &self.disturbed
     }
 
+    /// Whether something talked all the time that could not be read.
+    #[must_use]
+    pub const fn is_restless(&self) -> bool {
+        self.restless
+    }
+
     /// When [`Self::handle_timeout`] must be called next; never while the port is being opened
     /// and when the search is over.
     #[must_use]
     pub const fn deadline(&self) -> Micros {
         match self.state {
             State::Opening | State::Ended => Micros::MAX,
-            State::Listening { until, .. } | State::Ready(until) | State::Waiting(until) => until,
+            State::Listening { until, .. } | State::Ready(until, _) | State::Waiting(until, _) => {
+                until
+            }
         }
     }
 
@@ -237,6 +277,7 @@ impl Finder {
     pub fn handle_opened(&mut self, now: Micros) {
         if self.state == State::Opening {
             self.received.clear();
+            self.heard = 0;
             self.try_next(None);
             self.state = State::Listening {
                 since: now,
@@ -250,12 +291,15 @@ impl Finder {
         if let Some(trial) = self.trials.last_mut() {
             trial.bytes += bytes.len();
         }
+        self.heard += bytes.len();
         if self.received.len() < ENOUGH {
             self.received.extend_from_slice(bytes);
         }
         match self.state {
-            State::Ready(at) => self.state = State::Ready(at.max(now + QUIET)),
-            State::Waiting(until) => self.state = State::Waiting(until.min(now + QUIET)),
+            State::Ready(at, end) => {
+                self.state = State::Ready(at.max(now + QUIET).min(end.max(at)), end);
+            }
+            State::Waiting(_, end) => self.state = State::Waiting(end.min(now + QUIET), end),
             State::Opening | State::Listening { .. } | State::Ended => {}
         }
     }
@@ -268,15 +312,24 @@ impl Finder {
         match self.state {
             State::Opening | State::Ended => {}
             State::Listening { since, .. } => self.judge_stream(now, now - since),
-            State::Ready(_) => self.ask(now),
-            State::Waiting(_) => {
+            State::Ready(_, end) if now >= end && !self.received.is_empty() => {
+                self.judge_stream(now, PATIENCE);
+            }
+            State::Ready(..) => self.ask(now),
+            State::Waiting(..) => {
                 if let Some(index) = self.queue.pop_front() {
                     let reply = core::mem::take(&mut self.received);
                     self.asked.answered(index, reply);
                 }
-                self.state = State::Ready(now);
+                self.ready(now);
             }
         }
+    }
+
+    fn ready(&mut self, at: Micros) {
+        self.received.clear();
+        self.heard = 0;
+        self.state = State::Ready(at, at + PATIENCE);
     }
 
     fn plan(&self) -> Option<Plan> {
@@ -312,6 +365,7 @@ impl Finder {
             format,
             requests: 0,
             bytes: 0,
+            tried: true,
         });
     }
 
@@ -319,11 +373,13 @@ impl Finder {
     fn judge_stream(&mut self, now: Micros, took: Micros) {
         let bytes = core::mem::take(&mut self.received);
         let baud = self.plan().map_or(0, |plan| plan.baud);
-        let total = self.trials.last().map_or(0, |trial| trial.bytes);
+        let total = core::mem::take(&mut self.heard);
+        let asking = matches!(self.state, State::Ready(..));
         if self.keep(streams(baud, &bytes, total, took)) {
             self.end();
-        } else if bytes.len() >= STREAM {
-            // Something talks at another rate: it would talk into every reply.
+        } else if asking || bytes.len() >= STREAM {
+            // Something talks that cannot be read: it would talk into every reply.
+            self.restless = true;
             self.next_plan();
         } else {
             self.begin(now);
@@ -340,8 +396,7 @@ impl Finder {
         self.try_next(Some(format));
         self.round = 0;
         self.queue = (0..self.asked.len()).collect();
-        self.received.clear();
-        self.state = State::Ready(now);
+        self.ready(now);
     }
 
     /// Sends the next request of the round, or judges what has come.
@@ -355,7 +410,7 @@ impl Finder {
             }
             self.output
                 .push_back(Output::Transmit(self.asked.request(*index).into()));
-            self.state = State::Waiting(now + timeout);
+            self.state = State::Waiting(now + timeout, now + timeout + PATIENCE);
             return;
         }
         self.round += 1;
@@ -379,8 +434,21 @@ impl Finder {
     fn keep(&mut self, mut found: Vec<Found>) -> bool {
         self.found.append(&mut found);
         self.found.sort_by_key(|found| -found.score);
-        let sure = |found: &Found| matches!(found.verdict, Verdict::Certain | Verdict::Likely);
-        self.found.iter().any(sure)
+        let best = self.found.first().map_or(0, |found| found.score);
+        let rivals = self
+            .found
+            .iter()
+            .filter(|found| best - found.score < LEAD)
+            .count();
+        if rivals > 1 {
+            for found in self.found.iter_mut().take(rivals) {
+                found.verdict = Verdict::Ambiguous;
+            }
+        }
+        for found in self.found.iter_mut().skip(rivals) {
+            found.verdict = Verdict::Unlikely;
+        }
+        best >= LIKELY
     }
 }
 
@@ -416,7 +484,10 @@ fn asks(decoders: &[Decoder]) -> Vec<Ask> {
         return Vec::new();
     };
     match first.profile().format {
-        Format::T485 => Ask::t485(first, Request::All, 0).into_iter().collect(),
+        Format::T485 => [Request::All, Request::Angle]
+            .into_iter()
+            .filter_map(|request| Ask::t485(first, request, 0).ok())
+            .collect(),
         Format::Bus => addresses()
             .filter_map(|address| Ask::device(first, address).ok())
             .collect(),

@@ -133,8 +133,8 @@ pub struct Session {
     echo: Echo,
     votes: u8,
     timeout: Micros,
-    /// A reply was missing and may still come.
-    late: bool,
+    /// A reply was missing and may still come: the request that it answers.
+    late: Option<Vec<u8>>,
     /// When the session last listened before it asked.
     listened: Micros,
     received: Vec<u8>,
@@ -188,7 +188,7 @@ impl Session {
             echo: Echo::Unknown,
             votes: 0,
             timeout: TIMEOUT,
-            late: false,
+            late: None,
             listened: 0,
             received: Vec::new(),
             framer: Framer::joining(),
@@ -218,32 +218,29 @@ impl Session {
         self.interval = interval;
     }
 
-    /// Lets the line rest: what has come of a reply is reported as skipped, and the next request
-    /// waits until the line has been quiet.
-    pub fn rest(&mut self) {
-        let bytes = core::mem::take(&mut self.received);
-        self.skip(&bytes, Why::NoFrame);
-        self.state = State::Fresh;
-    }
-
-    /// The line has ended: everything that has come is reported.
+    /// Lets the line rest, or end: everything that has come is reported, what has come of a reply as
+    /// skipped, and the next request waits until the line has been quiet.
     ///
     /// ```
     /// use encoderscope::{decode::Decoder, framing::Why, profile::Profile, session::{Output, Session}};
     /// let decoder = Decoder::new(Profile::parse([("format", "period")])?)?;
     /// let mut session = Session::new(decoder, 0).unwrap();
     /// session.handle_input(0, &[7]);
-    /// session.finish();
-    /// let skip = Output::Skip { bytes: vec![7], why: Why::Truncated { have: 1, need: 7 } };
-    /// assert_eq!(session.poll_output(), Some(skip));
+    /// session.rest();
+    /// let Some(Output::Skip { bytes, .. }) = session.poll_output() else { panic!() };
+    /// assert_eq!(bytes, [7]);
     /// # Ok::<(), encoderscope::profile::ProfileError>(())
     /// ```
-    pub fn finish(&mut self) {
-        self.rest();
+    pub fn rest(&mut self) {
+        let bytes = core::mem::take(&mut self.received);
+        self.skip(&bytes, Why::NoFrame);
+        // What comes after a rest does not continue what came before.
+        let mut framer = core::mem::replace(&mut self.framer, Framer::joining());
         let output = &mut self.output;
-        self.framer.finish(&self.decoder, &mut |piece| {
+        framer.finish(&self.decoder, &mut |piece| {
             output.push_back(reported(&piece));
         });
+        self.state = State::Fresh;
     }
 
     /// The decoder that reads the replies.
@@ -295,7 +292,7 @@ impl Session {
                 let whole = self.received.len() >= self.asked.reply + offset;
                 let exact = self.received.len() == self.asked.reply + offset;
                 let plain = self.received.get(..offset) == self.asked.bytes.get(..offset);
-                let known = self.echo != Echo::Unknown && !self.late;
+                let known = self.echo != Echo::Unknown && !self.may_be_late();
                 if known && exact && plain && self.holds_at(offset) {
                     self.accept(now, sent, offset);
                 } else if self.received.len() > FLOOD {
@@ -373,6 +370,14 @@ impl Session {
         now.max(sent + self.interval).max(sent + deaf)
     }
 
+    /// Whether what looks like the reply may be the one that was missing; not where replies name
+    /// the request that they answer, and that was another one.
+    fn may_be_late(&self) -> bool {
+        self.late
+            .as_ref()
+            .is_some_and(|late| !self.decoder.echoes() || *late == self.asked.bytes)
+    }
+
     fn holds_at(&self, offset: usize) -> bool {
         let reply = self.received.get(offset..offset + self.asked.reply);
         reply.is_some_and(|bytes| self.asked.is_answered_by(&self.decoder, bytes))
@@ -405,7 +410,7 @@ impl Session {
         };
         if let Some(offset) = found {
             let alone = have == self.asked.reply + offset;
-            if alone && !self.late {
+            if alone && !self.may_be_late() {
                 self.vote(if offset > 0 {
                     Echo::Present
                 } else {
@@ -414,8 +419,12 @@ impl Session {
                 return self.accept(now, sent, offset);
             }
             // It may answer an earlier request, or belong to a talk that nobody asked for.
-            let quiet = if self.late { self.timeout } else { QUIET };
-            self.late = false;
+            let quiet = if self.may_be_late() {
+                self.timeout
+            } else {
+                QUIET
+            };
+            self.late = None;
             self.emit(now, sent, offset, None);
             self.state = State::Draining(now + quiet);
             return;
@@ -425,8 +434,11 @@ impl Session {
             let bytes = core::mem::take(&mut self.received);
             self.skip(&bytes, Why::Request);
             self.output.push_back(Output::Silent { echo: only_echo });
-            self.late = true;
-            self.timeout = (2 * self.timeout).min(LONGEST_TIMEOUT);
+            self.late = Some(self.asked.bytes.clone());
+            // Among several, one that is away must not hold up the others.
+            if self.polls.len() < 2 {
+                self.timeout = (2 * self.timeout).min(LONGEST_TIMEOUT);
+            }
         } else if have < self.asked.reply {
             let bytes = core::mem::take(&mut self.received);
             self.skip(

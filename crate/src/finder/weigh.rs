@@ -23,6 +23,9 @@ const LENGTH: i32 = 3;
 const ECHOED: i32 = 8;
 /// The same reply again; a still shaft gives no other.
 const REPEATED: i32 = 1;
+/// Against: the top bit of the angle was not seen in a distinct angle; in so many at most.
+const UNUSED_BIT: i32 = 3;
+const UNUSED_MOST: usize = 8;
 /// The encoder names its width; the only width there is.
 const NAMED: i32 = 6;
 /// A stream is text, line after line: no other is.
@@ -137,16 +140,39 @@ impl Asked {
         self.exchanges.push((index, reply));
     }
 
-    /// The requests that something came back for; in the second round all of a few.
+    /// What is asked again: what was answered; in the second round all of a few. Between two that
+    /// are the same another one goes out, so that no encoder hears anything twice in a row.
     pub(super) fn worth_asking(&self, round: usize) -> VecDeque<usize> {
         let few = self.format() != Some(Format::Bus);
-        let answers = |index: &usize| {
-            let mut replies = self.exchanges.iter().filter(|(asked, _)| asked == index);
-            replies.any(|(index, reply)| !reply.is_empty() && reply != self.request(*index))
+        let answered = |index: &usize| {
+            let mut exchanges = self.exchanges.iter().filter(|(asked, _)| asked == index);
+            exchanges.any(|(index, reply)| self.is_intelligible(*index, reply))
         };
-        (0..self.len())
-            .filter(|index| round == 1 && few || answers(index))
-            .collect()
+        let mut again: VecDeque<usize> = (0..self.len())
+            .filter(|index| round == 1 && few || answered(index))
+            .collect();
+        if again.len() == 1 && self.len() > 1 {
+            let index = again[0];
+            again.push_back((index + 1) % self.len());
+        }
+        again
+    }
+
+    /// Whether a reply is good, or says at least which request it answers.
+    fn is_intelligible(&self, index: usize, reply: &[u8]) -> bool {
+        let request = self.request(index);
+        let good = |hypothesis: &Hypothesis| hypothesis.read(index, reply).is_some();
+        let named = |hypothesis: &Hypothesis| {
+            let echoes = hypothesis.decoders.iter().any(Decoder::echoes);
+            echoes && reply.len() > request.len() && reply.starts_with(request)
+        };
+        self.hypotheses.iter().any(|one| good(one) || named(one))
+    }
+
+    /// Whether anything but the echo of the request came back.
+    fn talks_at(&self, index: usize) -> bool {
+        let mut exchanges = self.exchanges.iter().filter(|(asked, _)| *asked == index);
+        exchanges.any(|(index, reply)| !reply.is_empty() && reply != self.request(*index))
     }
 
     /// What may be on the line, and the addresses where something else is.
@@ -161,9 +187,7 @@ impl Asked {
             let answers = |address| found.iter().any(|found| found.addresses.contains(&address));
             disturbed = addresses()
                 .enumerate()
-                .filter(|(index, address)| {
-                    self.worth_asking(0).contains(index) && !answers(*address)
-                })
+                .filter(|(index, address)| self.talks_at(*index) && !answers(*address))
                 .map(|(_, address)| address)
                 .collect();
         }
@@ -199,6 +223,14 @@ impl Asked {
         }
         score -= (bad * FAILS).min(score / 4 * 3);
         score += if named { NAMED } else { 0 };
+        // A shaft that moves would show bits above the narrower encoder's, if there were any.
+        let top = hypothesis.profile.angle_bits - 1;
+        let seen: BTreeSet<u64> = places.iter().map(|(_, angle)| *angle).collect();
+        if hypothesis.profile.format == Format::T485
+            && !seen.iter().any(|angle| bits::bit(*angle, top))
+        {
+            score -= UNUSED_BIT * i32::try_from(seen.len().min(UNUSED_MOST)).unwrap_or(0);
+        }
         if good == 0 || score < CHANCE {
             return None;
         }

@@ -11,6 +11,8 @@ const SPREAD: Micros = OVER / 2;
 const LONGEST: Micros = 2_000_000;
 /// No more angles than this are kept.
 const ANGLES: usize = 1_024;
+/// So many turns from one angle to the next may as well be the rest of a turn the other way round.
+const NEARLY_HALF: f64 = 0.4;
 /// A counter that jumps by so many turns has begun anew.
 const JUMP: f64 = 1_000.0;
 
@@ -75,7 +77,7 @@ fn step(last: &Place, at: Micros, part: f64, turns: Option<f64>) -> Option<f64> 
     let parts = part - last.part;
     match last.turns.zip(turns).map(|(before, turns)| turns - before) {
         Some(turns) if turns > -JUMP && turns < JUMP => (apart <= LONGEST).then_some(turns + parts),
-        _ => (apart <= OVER).then(|| shortest_way(parts)),
+        _ => Some(shortest_way(parts)).filter(|part| apart <= OVER && part.abs() < NEARLY_HALF),
     }
 }
 

@@ -36,9 +36,12 @@ impl fmt::Display for Danger {
     }
 }
 
-/// The first of some bytes that is part of a command that changes an encoder: of RS485 and T485
-/// whatever the profile says, since it may be wrong; of BUS, whose operations many bytes look
-/// like, where the profile is one of a BUS.
+/// So many bytes that look like it are a sequence of a BUS.
+const MANY: usize = 3;
+
+/// The first of some bytes that is part of a command that changes an encoder, whatever the profile
+/// says, since it may be wrong. Many bytes look like an operation of a BUS: where the profile is
+/// not one of a BUS, a few of them are not taken for one.
 ///
 /// ```
 /// use encoderscope::{format::Format, sequence::danger};
@@ -49,29 +52,40 @@ impl fmt::Display for Danger {
 /// ```
 #[must_use]
 pub fn danger(profile: &Profile, bytes: &[u8]) -> Option<Danger> {
-    bytes.iter().find_map(|byte| of_byte(profile, *byte))
+    let of_bus = || bytes.iter().filter_map(|byte| of_bus(profile, *byte));
+    let enough = profile.format == Format::Bus || of_bus().count() >= MANY;
+    let mut named = bytes.iter().filter_map(|byte| of_byte(*byte));
+    named.next().or_else(|| of_bus().next().filter(|_| enough))
 }
 
-fn of_byte(profile: &Profile, byte: u8) -> Option<Danger> {
+fn of_byte(byte: u8) -> Option<Danger> {
     let danger = |what, format| Some(Danger { byte, what, format });
     if Command::of_byte(byte).is_some_and(Command::changes_encoder) {
         return danger("set zero", Format::Rs485);
     }
     match Request::of_byte(byte).filter(|request| request.changes_encoder()) {
-        Some(Request::MemoryWrite) => return danger("EEPROM write", Format::T485),
-        Some(Request::ResetErrors) => return danger("reset errors", Format::T485),
-        Some(Request::ResetTurns) => return danger("reset turns", Format::T485),
-        Some(_) => return danger("reset angle", Format::T485),
-        None => {}
+        Some(Request::MemoryWrite) => danger("EEPROM write", Format::T485),
+        Some(Request::ResetErrors) => danger("reset errors", Format::T485),
+        Some(Request::ResetTurns) => danger("reset turns", Format::T485),
+        Some(_) => danger("reset angle", Format::T485),
+        None => None,
     }
-    if profile.format != Format::Bus {
-        return None;
-    }
-    let head = Resolved::new(&bus::HEAD, Shape::of(*profile));
+}
+
+fn of_bus(profile: &Profile, byte: u8) -> Option<Danger> {
+    let danger = |what| {
+        let format = Format::Bus;
+        Some(Danger { byte, what, format })
+    };
+    let bus = match profile.format {
+        Format::Bus => *profile,
+        _ => Format::Bus.default_profile(),
+    };
+    let head = Resolved::new(&bus::HEAD, Shape::of(bus));
     // Whatever the parity says: what an encoder requires of it is not known.
     let operation = head.values(Bits::of_bytes(&[byte])).operation?;
     match Operation::of_code(operation).filter(|operation| operation.changes_encoder())? {
-        Operation::SetAddress => danger("set address", Format::Bus),
-        _ => danger("set zero", Format::Bus),
+        Operation::SetAddress => danger("set address"),
+        _ => danger("set zero"),
     }
 }

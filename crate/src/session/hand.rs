@@ -5,11 +5,14 @@ use alloc::vec::Vec;
 
 /// More than this of an answer is not waited for.
 const LONGEST: usize = 256;
+/// An answer that does not end is cut off after this, in microseconds.
+const PATIENCE: Micros = 500_000;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Ready(Micros),
-    Waiting(Micros),
+    /// Judged at this time, and at the second one at the latest.
+    Waiting(Micros, Micros),
     Ended,
 }
 
@@ -51,7 +54,7 @@ impl Hand {
     #[must_use]
     pub const fn deadline(&self) -> Micros {
         match self.state {
-            State::Ready(at) | State::Waiting(at) => at,
+            State::Ready(at) | State::Waiting(at, _) => at,
             State::Ended => Micros::MAX,
         }
     }
@@ -59,11 +62,11 @@ impl Hand {
     /// Bytes have come; those before the sending belong to nobody.
     pub fn handle_input(&mut self, now: Micros, bytes: &[u8]) {
         // A line that never rests is not waited for.
-        if let State::Waiting(until) = self.state {
+        if let State::Waiting(_, end) = self.state {
             self.received.extend_from_slice(bytes);
             let full = self.received.len() >= LONGEST;
-            let until = if full { now } else { until.min(now + QUIET) };
-            self.state = State::Waiting(until);
+            let until = if full { now } else { end.min(now + QUIET) };
+            self.state = State::Waiting(until, end);
         }
     }
 
@@ -71,10 +74,10 @@ impl Hand {
     pub fn handle_timeout(&mut self, now: Micros) {
         match self.state {
             State::Ready(at) if now >= at => {
-                self.state = State::Waiting(now + TIMEOUT);
+                self.state = State::Waiting(now + TIMEOUT, now + PATIENCE);
                 self.output = Some(core::mem::take(&mut self.bytes));
             }
-            State::Waiting(at) if now >= at => self.state = State::Ended,
+            State::Waiting(at, _) if now >= at => self.state = State::Ended,
             _ => {}
         }
     }

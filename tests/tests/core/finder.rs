@@ -2,6 +2,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use encoderscope::{
+    adapter::{CHIPS, Made},
     bits,
     detect::Verdict,
     emulator::{Bus, Emulator, Faults, Shaft},
@@ -65,6 +66,9 @@ fn search(parameters: &str, shaft: Shaft, faults: Faults) -> (Option<Found>, Sen
     };
     let mut finder = Finder::new();
     let (sent, took) = run(&mut finder, &mut line, 7_000_000);
+    let sure = |found: &&Found| matches!(found.verdict, Verdict::Certain | Verdict::Likely);
+    let others = finder.found().iter().filter(sure).count();
+    assert!(others <= 1, "{parameters}: {:?}", finder.found());
     (finder.found().first().cloned(), sent, took)
 }
 
@@ -165,7 +169,7 @@ fn a_width_is_only_named_when_the_angle_wraps() {
         for bits in 17..=24 {
             for turns in [0, 16] {
                 let parameters = format!("format={format} angle-bits={bits} turns-bits={turns}");
-                let (found, ..) = search(&parameters, Shaft::turning(0.1, 4.1), Faults::default());
+                let (found, ..) = search(&parameters, Shaft::turning(0.6, 2.1), Faults::default());
                 let found = found.unwrap();
                 assert_eq!(
                     (found.profile.angle_bits, found.narrowest),
@@ -173,8 +177,9 @@ fn a_width_is_only_named_when_the_angle_wraps() {
                     "{parameters}: {:?}",
                     found.evidence
                 );
-                let (found, ..) = search(&parameters, Shaft::still(0.001), Faults::default());
-                if let Some(found) = found {
+                let (found, ..) = search(&parameters, Shaft::still(0.101), Faults::default());
+                let found = found.unwrap_or_else(|| panic!("{parameters}: nothing found"));
+                if bits < 24 {
                     assert!(found.narrowest <= bits && bits <= found.profile.angle_bits);
                     assert!(
                         found
@@ -272,6 +277,127 @@ fn is_dangerous(byte: u8) -> bool {
         .parity
         .is_some_and(encoderscope::reading::Checked::ok);
     rs485 || t485 || parity && bus.is_some_and(bus::Operation::changes_encoder)
+}
+
+#[test]
+fn a_line_that_never_rests_ends_every_search() {
+    for (parameters, known) in [("format=t485", None), ("format=bus", Some("format=bus"))] {
+        let mut finder = match known {
+            None => Finder::new(),
+            Some(known) => Finder::scan(decoder(known).profile(), 0).unwrap(),
+        };
+        let mut now = 0;
+        let mut ended = false;
+        let mut sent = 0;
+        while !ended && now < 60_000_000 {
+            now += 15_000;
+            finder.handle_input(now, &[0x55]);
+            finder.handle_timeout(now);
+            while let Some(output) = finder.poll_output() {
+                match output {
+                    Output::Open(_) => finder.handle_opened(now),
+                    Output::Transmit(_) => sent += 1,
+                    Output::Ended => ended = true,
+                }
+            }
+        }
+        assert!(ended && now < 10_000_000, "{parameters}: {now}");
+        assert_eq!(sent, 0);
+        assert!(finder.is_restless());
+    }
+}
+
+#[test]
+fn rates_that_the_adapter_does_not_make_are_left_out() {
+    let chip = CHIPS.iter().find(|chip| chip.name == "FT232R").unwrap();
+    let mut finder = Finder::through(|baud| !matches!(chip.made(baud), Made::Not(_)));
+    assert_eq!(finder.poll_output(), Some(Output::Open(115_200)));
+    let left_out: Vec<_> = finder
+        .trials()
+        .iter()
+        .filter(|trial| !trial.tried)
+        .collect();
+    assert_eq!(left_out.len(), 1);
+    assert_eq!(left_out[0].baud, 2_500_000);
+}
+
+/// The longest row of one dangerous byte, as commands must come to act.
+fn longest_row(bytes: &[u8]) -> usize {
+    let (mut longest, mut row, mut last) = (0, 0, None);
+    for byte in bytes {
+        row = if last == Some(byte) { row + 1 } else { 1 };
+        last = Some(byte);
+        if is_dangerous(*byte) {
+            longest = longest.max(row);
+        }
+    }
+    longest
+}
+
+#[test]
+fn no_search_changes_an_encoder_through_an_adapter_at_any_rate() {
+    let made = CHIPS.iter().filter_map(|chip| match chip.made(2_500_000) {
+        Made::Rate(rate) | Made::Not(rate) => Some(rate as u32),
+        Made::Unknown => None,
+    });
+    let swept = (80..130).map(|percent| 25_000 * percent);
+    for rate in made.chain(swept) {
+        for parameters in [
+            "format=t485",
+            "format=t485 dialect=tamagawa",
+            "format=rs485",
+            "format=bus address=4",
+            "format=bus address=31",
+        ] {
+            let mut emulator = device(parameters, Shaft::still(5.3), Faults::default());
+            let before = (emulator.values(0), emulator.address(), emulator.memory(0));
+            let mut finder = Finder::new();
+            let mut heard = Vec::new();
+            let mut now = 0;
+            loop {
+                while let Some(output) = finder.poll_output() {
+                    match output {
+                        Output::Open(baud) => {
+                            // The adapter runs at this rate instead of 2.5 Mbaud.
+                            let rate = if baud == 2_500_000 { rate } else { baud };
+                            emulator.faults.rate = Some(rate);
+                            emulator.drop_unread(now);
+                            finder.handle_opened(now);
+                        }
+                        Output::Transmit(bytes) => {
+                            let rate = emulator.faults.rate.unwrap();
+                            let own = emulator.profile().baud;
+                            heard.extend(encoderscope::emulator::heard(&bytes, rate, own));
+                            emulator.handle_input(now, &bytes);
+                        }
+                        Output::Ended => now = Micros::MAX,
+                    }
+                }
+                if now == Micros::MAX {
+                    break;
+                }
+                let due = emulator.deadline().unwrap_or(Micros::MAX);
+                now = due.min(finder.deadline()).max(now);
+                while let Some(bytes) = emulator.poll_output(now) {
+                    finder.handle_input(now, &bytes);
+                }
+                finder.handle_timeout(now);
+            }
+            let after = (emulator.values(0), emulator.address(), emulator.memory(0));
+            assert_eq!(before.0.angle, after.0.angle, "{parameters} at {rate}");
+            assert_eq!(before.0.turns, after.0.turns, "{parameters} at {rate}");
+            assert_eq!(
+                (before.1, before.2),
+                (after.1, after.2),
+                "{parameters} at {rate}"
+            );
+            let row = longest_row(&heard);
+            assert!(
+                row <= 3,
+                "{parameters} at {rate}: {row} in a row of {heard:02x?}"
+            );
+        }
+    }
 }
 
 #[test]

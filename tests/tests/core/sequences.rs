@@ -434,3 +434,40 @@ fn a_command_that_the_encoder_does_not_know_stops_it() {
     assert!(own.is_none());
     assert!(!t485::Request::ResetErrors.is_known_to(mpp.devices[0].profile().dialect));
 }
+
+#[test]
+fn every_byte_that_changes_an_encoder_is_called_dangerous() {
+    use encoderscope::{
+        bits::Bits,
+        format::{bus, rs485, t485},
+        layout::{Resolved, Shape},
+        sequence::danger,
+    };
+    for format in Format::ALL {
+        let profile = format.default_profile();
+        for byte in 0..=255u8 {
+            let rs485 = rs485::Command::of_byte(byte).is_some_and(rs485::Command::changes_encoder);
+            let t485 = t485::Request::of_byte(byte).is_some_and(t485::Request::changes_encoder);
+            let head = Resolved::new(&bus::HEAD, Shape::of(Format::Bus.default_profile()));
+            let operation = head.values(Bits::of_bytes(&[byte])).operation;
+            let bus = operation
+                .and_then(bus::Operation::of_code)
+                .is_some_and(bus::Operation::changes_encoder);
+            let expected = rs485 || t485 || bus && *format == Format::Bus;
+            assert_eq!(
+                danger(&profile, &[byte]).is_some(),
+                expected,
+                "{format:?} {byte:02x}"
+            );
+            assert_eq!(danger(&profile, &[0x1a, byte]).is_some(), expected);
+            assert_eq!(
+                danger(&profile, &[byte; 3]).is_some(),
+                expected || bus,
+                "{byte:02x}"
+            );
+        }
+        assert_eq!(danger(&profile, &[]), None);
+    }
+    let zero: Vec<u8> = [0x1f, 0xbf].repeat(10);
+    assert!(danger(&Format::T485.default_profile(), &zero).is_some());
+}

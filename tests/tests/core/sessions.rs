@@ -422,10 +422,70 @@ fn every_byte_is_accounted_for_when_the_line_ends() {
             let half = &half[..half.len() / 2];
             log.received += half.len();
             pair.session.handle_input(pair.now, half);
-            pair.session.finish();
+            pair.session.rest();
             log.count(&mut pair.session);
             let told = log.framed + log.skipped;
             assert_eq!(told, log.received, "{parameters} until {until}");
         }
+    }
+}
+
+#[test]
+fn a_device_that_is_away_spoils_nothing_of_the_others() {
+    use encoderscope::emulator::Bus;
+    let made = |address: u32| {
+        let decoder = decoder(&format!("format=bus address={address}"));
+        Emulator::new(*decoder.profile(), Shaft::still(f64::from(address) + 0.5)).unwrap()
+    };
+    let mut line = Bus {
+        devices: [3, 7].map(made).into(),
+    };
+    let mut session = Session::of_devices(decoder("format=bus"), &[3, 5, 7], 0).unwrap();
+    let mut now: Micros = 0;
+    let (mut good, mut bad, mut silent) = (0, 0, 0);
+    while now < 5_000_000 {
+        session.handle_timeout(now);
+        while let Some(bytes) = line.poll_output(now) {
+            session.handle_input(now, &bytes);
+        }
+        while let Some(output) = session.poll_output() {
+            match output {
+                Output::Transmit(bytes) => line.handle_input(now, &bytes),
+                Output::Frame { sure: true, .. } => good += 1,
+                Output::Frame { .. } | Output::Skip { .. } => bad += 1,
+                Output::Silent { .. } => silent += 1,
+            }
+        }
+        let due = line.deadline().unwrap_or(Micros::MAX);
+        now = due.min(session.deadline()).max(now + 1);
+    }
+    assert_eq!(bad, 0);
+    assert!(
+        silent > 30 && good + 2 >= 2 * silent,
+        "{good} good, {silent} silent"
+    );
+}
+
+#[test]
+fn lines_of_digits_are_not_glued_over_a_rest() {
+    let mut session = Session::new(decoder("format=asi4"), 0).unwrap();
+    let mut said = Vec::new();
+    session.handle_input(0, b"1629\r\n1630\r\n16");
+    session.rest();
+    session.handle_timeout(1_000_000);
+    session.handle_input(1_000_000, b"50\r\n2051\r\n2052\r\n");
+    session.handle_input(1_002_000, &b"2052\r\n".repeat(20));
+    while let Some(output) = session.poll_output() {
+        match output {
+            Output::Frame {
+                bytes, sure: true, ..
+            } => said.push(bytes),
+            Output::Skip { .. } | Output::Frame { .. } => {}
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(said.contains(&b"2052\r\n".to_vec()) && said.contains(&b"1630\r\n".to_vec()), "{said:?}");
+    for line in [&b"1650\r\n"[..], b"50\r\n"] {
+        assert!(!said.contains(&line.to_vec()), "{said:?}");
     }
 }

@@ -205,7 +205,7 @@ impl Run {
     /// The link is going away: a sequence ends here, and every byte is accounted for.
     pub(super) fn abandon(&mut self, tally: &mut Tally) {
         if let Some(session) = &mut self.session {
-            session.finish();
+            session.rest();
         }
         self.follow_session(self.looked, tally);
         if let Some(Talk::Set(_, runner)) = &mut self.talk {
