@@ -86,3 +86,31 @@ test('two devices with one address are named @serial', async ({ page }) => {
   await setAddress(page, '12');
   await expect(at(page, 'zero-outcome')).toHaveAttribute('data-value', 'no', { timeout: 15_000 });
 });
+
+test('a device that goes away is not shown as read, and spoils nothing of the others @serial', async ({ page }) => {
+  await plug(page, 'format=bus&address=3', 'still=1.25', 'device=7', 'still=2.5');
+  await expectLink(page, 'reading');
+  await at(page, 'scan').click();
+  await expect(at(page, 'device')).toHaveCount(2);
+  await at(page, 'device').nth(1).click();
+  await until(page, 'angle', (angle) => angle === 2 ** 23);
+  encoder.set('silent=1');
+  await expect(at(page, 'device').nth(1)).toHaveAttribute('data-fresh', 'false');
+  await expect(page.getByText('last reading before the link stopped')).toBeVisible();
+  await expect(at(page, 'device').nth(0)).toHaveAttribute('data-fresh', 'true');
+  encoder.set('silent=0');
+  await expect(at(page, 'device').nth(1)).toHaveAttribute('data-fresh', 'true');
+  await expect(page.getByText('last reading before the link stopped')).toHaveCount(0);
+});
+
+test('what was to be set on one encoder is not set on another', async ({ page }) => {
+  await page.goto('/#/console?format=bus&address=3');
+  await at(page, 'demo').click();
+  await expectLink(page, 'reading');
+  await page.getByRole('button', { name: 'Set address…' }).click();
+  await expect(page.getByText('address 3')).toBeVisible();
+  await page.goto('/#/console?format=bus&address=4');
+  await expectLink(page, 'reading');
+  await expect(at(page, 'zero-confirm')).toHaveCount(0);
+  await expect(page.getByRole('button', { name: 'Set address…' })).toBeVisible();
+});

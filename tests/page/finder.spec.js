@@ -1,6 +1,7 @@
 // Find it for me, and the doctor's ladder.
 import { at, expect, expectLink, number, test, until } from './page.js';
 import { Encoder, options } from './encoder.js';
+import { count, script } from './scripted.js';
 
 let encoder;
 test.afterEach(async () => {
@@ -145,28 +146,47 @@ test('a free-running encoder is named while another is asked @serial', async ({ 
   await expectLink(page, 'reading');
 });
 
-test('an adapter that cannot make the rate is named', async ({ page }) => {
-  const adapter = { usbVendorId: 0x0403, usbProductId: 0x6001 };
-  await page.addInitScript((info) => {
-    window.Worker = class {
-      constructor() {
-        throw new Error('no workers here');
-      }
-    };
-    const port = {
-      getInfo: () => info,
-      open: async () => {
-        port.readable = new ReadableStream();
-        port.writable = new WritableStream();
-      },
-      close: async () => {},
-    };
-    const serial = { getPorts: async () => [port] };
-    Object.defineProperty(Navigator.prototype, 'serial', { get: () => serial });
-  }, adapter);
+test('an adapter that cannot make the rate is named, and nothing is sent through it', async ({ page }) => {
+  await script(page, { vendor: 0x0403, product: 0x6001 });
   await page.goto('/#/console?format=t485');
   await at(page, 'connect').click();
-  await expectLink(page, 'silent');
+  await expectLink(page, 'rate-not-made');
+  await expect(page.getByRole('alert')).toContainText('3\u2009000\u2009000');
+  expect(await count(page, 'opened')).toBe(0);
+  await at(page, 'find').click();
+  await expect(at(page, 'search')).toHaveAttribute('data-done', 'true', { timeout: 20_000 });
+  await page.getByText('What was tried').click();
+  await expect(at(page, 'search')).toContainText('left out: this adapter does not make it');
+  await at(page, 'connect').click();
+  await expectLink(page, 'rate-not-made');
+  await at(page, 'all-the-same').click();
+  await expectLink(page, 'reading');
   await expect(at(page, 'rung').first()).toHaveAttribute('data-value', 'warn');
   await expect(at(page, 'rung').first()).toContainText('does not make');
+});
+
+test('a search that is broken off while the port opens says so', async ({ page }) => {
+  await script(page, { vendor: 0x0403, product: 0x6014, opening: 'never' });
+  await page.goto('/');
+  await at(page, 'find').click();
+  await expectLink(page, 'searching');
+  await at(page, 'disconnect').click();
+  await expectLink(page, 'closed');
+  await expect(at(page, 'search')).toHaveAttribute('data-done', 'true');
+  await expect(at(page, 'search')).toContainText('broken off');
+});
+
+test('another port that is chosen while one is read is read instead', async ({ page }) => {
+  await script(page, { vendor: 0x0403, product: 0x6014 }, { vendor: 0x1a86, product: 0x55d3 });
+  await page.goto('/#/console?format=t485');
+  await at(page, 'connect').click();
+  await expectLink(page, 'reading');
+  const writes = await count(page, 'writes', 0);
+  expect(writes).toBeGreaterThan(0);
+  await at(page, 'port').selectOption({ label: 'CH343' });
+  await expect.poll(() => count(page, 'opened', 1)).toBe(1);
+  await expect.poll(() => count(page, 'writes', 1)).toBeGreaterThan(2);
+  const before = await count(page, 'writes', 0);
+  await expectLink(page, 'reading');
+  expect(await count(page, 'writes', 0)).toBe(before);
 });

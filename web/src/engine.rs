@@ -219,7 +219,7 @@ impl Engine {
         match made {
             Ok(wire) => {
                 let mut state = self.state.borrow_mut();
-                state.tally = Tally::new(now());
+                state.tally = Tally::after(&state.tally, now());
                 let talk = Talk::Find(Finder::new(), None);
                 state.run = Some(Run::searching(wire, talk, now()));
                 drop(state);
@@ -234,9 +234,7 @@ impl Engine {
     fn start(&self, session: Session, wire: Wire, interval: Micros) {
         {
             let mut state = self.state.borrow_mut();
-            let filter = state.tally.filtered();
-            state.tally = Tally::new(now());
-            state.tally.filter(filter);
+            state.tally = Tally::after(&state.tally, now());
             state.tally.start(session.decoder().clone());
             state.run = Some(Run::reading(wire, session, interval, now()));
         }

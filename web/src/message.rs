@@ -346,10 +346,12 @@ pub struct Snapshot {
     pub gap: Option<f64>,
     /// The devices of a BUS, after a scan.
     pub devices: Vec<Device>,
-    /// The one of them on the dial, to which settings go.
+    /// The address of the BUS device on the dial, to which settings go.
     pub watched: Option<u32>,
     /// What the last scan said, in words.
     pub scan: Option<String>,
+    /// Something else than reading goes on: a setting, a scan, a search, or bytes by hand.
+    pub busy: bool,
     /// The search for an encoder that runs or has run last.
     pub search: Option<Search>,
 }
@@ -376,8 +378,20 @@ pub struct Search {
     pub trials: Vec<Trial>,
     /// What was found, best first.
     pub found: Vec<Found>,
-    /// Whether it is over.
-    pub done: bool,
+    /// How it goes.
+    pub stage: SearchStage,
+}
+
+/// How a search goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SearchStage {
+    /// It runs.
+    #[default]
+    Running,
+    /// It has come to its end.
+    Ended,
+    /// It was broken off.
+    BrokenOff,
 }
 
 /// What was tried in a search.
@@ -391,6 +405,8 @@ pub struct Trial {
     pub requests: u32,
     /// Bytes that came.
     pub bytes: f64,
+    /// Whether it was tried at all: the adapter may not make the rate.
+    pub tried: bool,
 }
 
 /// An encoder that a search has found.

@@ -140,6 +140,7 @@ impl Trail {
 
     /// An encoder with so many bits per turn is being read.
     pub fn start(&mut self, angle_bits: u32) {
+        self.history.jump();
         self.standstill = Standstill::new(angle_bits);
     }
 

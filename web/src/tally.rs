@@ -12,6 +12,7 @@ use crate::{
     plot::Trail,
 };
 use asides::Kept;
+pub(crate) use asides::RESTLESS;
 pub use asides::Who;
 use encoderscope::{
     bits,
@@ -22,7 +23,7 @@ use encoderscope::{
 };
 use log::{Kind, Log, Seen};
 use pace::Pace;
-use shaft::Place;
+use shaft::{FEWEST, Place};
 use std::collections::VecDeque;
 
 /// Replies over which latencies are sorted.
@@ -90,6 +91,16 @@ impl Tally {
         }
     }
 
+    /// Nothing yet of another link; how the last setting ended stays until it has been read, and
+    /// the log is shown as before.
+    #[must_use]
+    pub fn after(before: &Self, now: Micros) -> Self {
+        let mut tally = Self::new(now);
+        tally.progress = before.progress.clone();
+        tally.log.filter = before.log.filter;
+        tally
+    }
+
     /// What is kept for the plot.
     #[must_use]
     pub const fn trail(&self) -> &Trail {
@@ -126,12 +137,6 @@ impl Tally {
     #[must_use]
     pub const fn changed(&self) -> bool {
         self.changed
-    }
-
-    /// Which entries of the log are shown.
-    #[must_use]
-    pub const fn filtered(&self) -> LogFilter {
-        self.log.filter
     }
 
     /// Bytes have come in.
@@ -252,6 +257,7 @@ impl Tally {
             self.places.push_back(Place {
                 at: now,
                 part: shown.degrees / 360.0,
+                turns: shown.turns,
             });
             let sample = Sample {
                 degrees: shown.degrees,
@@ -283,11 +289,8 @@ impl Tally {
         {
             self.good_times.pop_front();
         }
-        while self
-            .places
-            .front()
-            .is_some_and(|place| place.at + RATE_OVER < now)
-        {
+        let old = |place: &Place| place.at + RATE_OVER < now;
+        while self.places.len() > FEWEST && self.places.front().is_some_and(old) {
             self.places.pop_front();
         }
     }

@@ -484,7 +484,10 @@ fn lines_of_digits_are_not_glued_over_a_rest() {
             other => panic!("{other:?}"),
         }
     }
-    assert!(said.contains(&b"2052\r\n".to_vec()) && said.contains(&b"1630\r\n".to_vec()), "{said:?}");
+    assert!(
+        said.contains(&b"2052\r\n".to_vec()) && said.contains(&b"1630\r\n".to_vec()),
+        "{said:?}"
+    );
     for line in [&b"1650\r\n"[..], b"50\r\n"] {
         assert!(!said.contains(&line.to_vec()), "{said:?}");
     }

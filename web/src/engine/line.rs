@@ -9,10 +9,13 @@ use super::{
 use crate::{
     browser::{now, pause},
     message::{Link, PortId},
-    serial::{Port, Read, Reader},
+    serial::{self, Port, Read, Reader},
     tally::Tally,
 };
-use encoderscope::finder::{Finder, Output};
+use encoderscope::{
+    adapter::Made,
+    finder::{Finder, Output},
+};
 
 /// The longest pause between two readers of a line that does nothing but fail, in milliseconds.
 const LONGEST_PAUSE: f64 = 128.0;
@@ -46,10 +49,11 @@ impl Engine {
 
     /// Opens a port for a search, at the first baud rate that it asks for.
     pub(super) fn begin_search(&self, port: PortId) {
-        let mut finder = Finder::new();
+        let makes = |baud| !matches!(serial::made(port, baud), Made::Not(_));
+        let mut finder = Finder::through(makes);
         {
             let mut state = self.state.borrow_mut();
-            state.tally = Tally::new(now());
+            state.tally = Tally::after(&state.tally, now());
             state.tally.searched(&finder);
         }
         self.set_link(Link::Searching);
@@ -190,7 +194,7 @@ impl Engine {
                 let now = now();
                 let State { run, tally, .. } = &mut *state;
                 if let Some(run) = run {
-                    run.wake(now);
+                    run.wake(now, tally);
                     run.take(now, &bytes, tally);
                 }
                 Next::Read

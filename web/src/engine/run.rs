@@ -5,7 +5,7 @@ use crate::{
     link::query,
     message::{Link, Setting},
     serial::{Port, Reader},
-    tally::{Tally, Who},
+    tally::{RESTLESS, Tally, Who},
 };
 use encoderscope::{
     decode::Decoder,
@@ -157,13 +157,24 @@ impl Run {
 
     /// Begins anew after a sleep. What is read then came at a time that nobody knows, and what was
     /// seen of the shaft before a sequence no longer counts.
-    pub(super) fn wake(&mut self, now: Micros) {
+    pub(super) fn wake(&mut self, now: Micros, tally: &mut Tally) {
         let overslept = |due: Micros| now > due.saturating_add(ASLEEP);
         if overslept(self.host_deadline()) && overslept(self.looked) {
-            match (&mut self.talk, &mut self.session) {
-                (Some(Talk::Set(_, runner)), _) => runner.stop(),
-                (Some(_), _) | (None, None) => {}
-                (None, Some(session)) => session.rest(),
+            match &mut self.talk {
+                Some(Talk::Set(_, runner)) => runner.stop(),
+                // Another device may have been connected meanwhile.
+                Some(Talk::Scan(_, after)) => {
+                    if let After::Set(setting) = after {
+                        let why = "Broken off, for the page slept. Nothing was sent that changes an encoder.";
+                        tally.refuse(*setting, why);
+                    }
+                    self.talk = None;
+                }
+                Some(Talk::Hand(_)) => self.talk = None,
+                Some(Talk::Find(..)) | None => {}
+            }
+            if let (None, Some(session)) = (&self.talk, &mut self.session) {
+                session.rest();
             }
         }
         self.looked = now;
@@ -214,7 +225,6 @@ impl Run {
                 tally.follow(&event);
             }
         }
-        tally.interrupted();
     }
 
     fn follow_session(&mut self, at: Micros, tally: &mut Tally) -> bool {
@@ -298,7 +308,10 @@ impl Run {
                     (finder::Output::Open(baud), Wire::Port { .. }) => {
                         self.todo = Some(Todo::Reopen(baud));
                     }
-                    (finder::Output::Ended, _) => self.todo = Some(Todo::Close),
+                    (finder::Output::Ended, _) => {
+                        tally.end_search();
+                        self.todo = Some(Todo::Close);
+                    }
                 }
                 true
             }
@@ -316,7 +329,7 @@ impl Run {
         let addresses = addresses.map_or(&[][..], |found| &found.addresses);
         match after {
             After::Read => {
-                tally.scanned(addresses, finder.disturbed());
+                tally.scanned(addresses, finder);
                 self.read_devices(at, None, addresses, tally);
             }
             After::Set(setting) => {
@@ -325,10 +338,10 @@ impl Run {
                     .as_ref()
                     .map(|session| session.decoder().profile().address);
                 let alone = addresses.iter().map(|address| u32::from(*address)).eq(own);
-                if alone && finder.disturbed().is_empty() {
+                if alone && finder.disturbed().is_empty() && !finder.is_restless() {
                     self.set(setting, at, tally);
                 } else {
-                    tally.refuse(setting, &not_alone(addresses, finder.disturbed()));
+                    tally.refuse(setting, &not_alone(addresses, finder));
                 }
             }
         }
@@ -376,6 +389,7 @@ impl Run {
         let made =
             decoder.and_then(|decoder| Session::of_devices(decoder, addresses, self.interval).ok());
         if let Some(new) = made {
+            self.doctor = Doctor::new(*new.decoder().profile(), now);
             tally.start(new.decoder().clone());
             *session = new;
         }
@@ -391,12 +405,14 @@ impl Run {
 }
 
 /// Why the address cannot be set.
-fn not_alone(addresses: &[u8], disturbed: &[u8]) -> String {
+fn not_alone(addresses: &[u8], finder: &Finder) -> String {
     let list = |addresses: &[u8]| {
         let list: Vec<String> = addresses.iter().map(ToString::to_string).collect();
         list.join(", ")
     };
+    let disturbed = finder.disturbed();
     let why = match (addresses, disturbed) {
+        _ if finder.is_restless() => RESTLESS.to_owned(),
         ([], []) => "No device answered the scan.".to_owned(),
         (_, []) if addresses.len() > 1 => {
             format!(

@@ -21,6 +21,7 @@ impl State {
     /// Lets go of what is open; it is still to be closed.
     pub(super) fn let_go(&mut self) -> Option<Wire> {
         self.generation += 1;
+        self.tally.interrupted();
         let mut run = self.run.take()?;
         run.abandon(&mut self.tally);
         Some(run.wire)
@@ -63,6 +64,7 @@ impl State {
                 self.tally.refuse(*setting, why);
                 run.talk = None;
             }
+            Some(Talk::Scan(_, After::Read)) => run.talk = None,
             _ => {}
         }
     }
@@ -186,7 +188,7 @@ impl State {
         let now = now();
         let mut todo = None;
         if let Some(run) = &mut self.run {
-            run.wake(now);
+            run.wake(now, &mut self.tally);
             if let Some(link) = run.advance(now, &mut self.tally) {
                 self.link = link;
                 self.tally.touch();
@@ -200,8 +202,9 @@ impl State {
             self.wanted = false;
             let mut snapshot = self.tally.snapshot(now);
             snapshot.link = self.link.clone();
-            if self.run.is_none() {
-                snapshot.rate = 0.0;
+            match &self.run {
+                Some(run) => snapshot.busy = run.talk.is_some(),
+                None => snapshot.rate = 0.0,
             }
             (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
         }

@@ -3,9 +3,17 @@
 use super::{Kind, RATE_OVER, Tally, shown};
 use crate::{
     link::query,
-    message::{Device, Found, Search, Shown, Trial},
+    message::{Device, Found, Search, SearchStage, Shown, Trial},
 };
-use encoderscope::{decode::Frame, finder::Finder, session::Micros};
+use encoderscope::{
+    decode::{Decoder, Frame},
+    finder::Finder,
+    format::Format,
+    session::Micros,
+};
+
+/// Why nothing can be asked.
+pub(crate) const RESTLESS: &str = "Something talks on the line all the time.";
 
 /// Who sends what reading does not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +43,8 @@ pub(super) struct Kept {
     good: f64,
     bad: f64,
     at: Option<Micros>,
+    /// Between its last two good frames.
+    apart: Micros,
 }
 
 impl Kept {
@@ -44,7 +54,9 @@ impl Kept {
             reading: self.reading,
             good: self.good,
             bad: self.bad,
-            fresh: self.at.is_some_and(|at| now < at + RATE_OVER),
+            fresh: self
+                .at
+                .is_some_and(|at| now < at + RATE_OVER.max(3 * self.apart)),
         }
     }
 }
@@ -70,7 +82,7 @@ impl Tally {
     }
 
     /// A scan is over.
-    pub fn scanned(&mut self, addresses: &[u8], disturbed: &[u8]) {
+    pub fn scanned(&mut self, addresses: &[u8], finder: &Finder) {
         self.devices = addresses
             .iter()
             .map(|address| Kept {
@@ -79,6 +91,7 @@ impl Tally {
                 good: 0.0,
                 bad: 0.0,
                 at: None,
+                apart: 0,
             })
             .collect();
         let found = match addresses.len() {
@@ -86,8 +99,10 @@ impl Tally {
             1 => "One device answers.".to_owned(),
             count => format!("{count} devices answer."),
         };
-        let strange: Vec<String> = disturbed.iter().map(ToString::to_string).collect();
+        let strange = finder.disturbed().iter();
+        let strange: Vec<String> = strange.map(ToString::to_string).collect();
         self.scan = Some(match strange.is_empty() {
+            true if finder.is_restless() => RESTLESS.to_owned(),
             true => found,
             false => format!(
                 "{found} What answers at {} is damaged: a disturbed device, or two with one address.",
@@ -110,13 +125,12 @@ impl Tally {
         self.devices.iter().map(|device| device.address).collect()
     }
 
-    /// The device on the dial, among several.
+    /// The BUS device on the dial.
     pub(super) fn watched(&self) -> Option<u32> {
         let decoder = self.decoder.as_ref();
-        let several = !self.devices.is_empty();
-        decoder
-            .filter(|_| several)
-            .map(|decoder| decoder.profile().address)
+        let profile = decoder.map(Decoder::profile);
+        let bus = profile.filter(|profile| profile.format == Format::Bus);
+        bus.map(|profile| profile.address)
     }
 
     /// How far a search is.
@@ -126,6 +140,7 @@ impl Tally {
             format: trial.format.map(|format| format.name().into()),
             requests: trial.requests,
             bytes: trial.bytes as f64,
+            tried: trial.tried,
         });
         let found = finder.found().iter().map(|found| Found {
             profile: query(&found.profile),
@@ -136,15 +151,23 @@ impl Tally {
         self.search = Some(Search {
             trials: trials.collect(),
             found: found.collect(),
-            done: false,
+            stage: SearchStage::Running,
         });
         self.changed = true;
     }
 
-    /// Nothing goes on any more on this link.
-    pub const fn interrupted(&mut self) {
+    /// A search has come to its end.
+    pub const fn end_search(&mut self) {
         if let Some(search) = &mut self.search {
-            search.done = true;
+            search.stage = SearchStage::Ended;
+        }
+    }
+
+    /// Nothing goes on any more on this link.
+    pub fn interrupted(&mut self) {
+        let running = |search: &&mut Search| search.stage == SearchStage::Running;
+        if let Some(search) = self.search.as_mut().filter(running) {
+            search.stage = SearchStage::BrokenOff;
         }
         self.changed = true;
     }
@@ -158,6 +181,7 @@ impl Tally {
                 true => {
                     device.good += 1.0;
                     device.reading = shown(frame);
+                    device.apart = device.at.map_or(0, |at| now - at);
                     device.at = Some(now);
                 }
                 false => device.bad += 1.0,

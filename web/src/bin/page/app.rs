@@ -65,6 +65,8 @@ pub(crate) struct App {
     pub(crate) running: RwSignal<Option<Profile>>,
     /// How often a second the encoder is asked; 0 is as often as it answers.
     pub(crate) pace: RwSignal<f64>,
+    /// The user wants a baud rate that the adapter is known not to make.
+    pub(crate) any_rate: RwSignal<bool>,
     /// Why there is no port.
     pub(crate) obstacle: RwSignal<Option<Obstacle>>,
     /// Text of the decode area.
@@ -93,6 +95,7 @@ impl App {
             port: RwSignal::new(None),
             running: RwSignal::new(None),
             pace: RwSignal::new(0.0),
+            any_rate: RwSignal::new(false),
             obstacle: RwSignal::new(None),
             dump: RwSignal::new(String::new()),
             broken,
@@ -153,9 +156,16 @@ impl App {
 
     /// The device that is being read has a new address: nothing needs to be opened again.
     pub(crate) fn adopt_address(self, address: u32) {
+        if self.profile.get_untracked().address == address {
+            return;
+        }
         let moved = |profile: Profile| Profile { address, ..profile };
         self.running.update(|running| *running = running.map(moved));
         self.profile.update(|profile| *profile = moved(*profile));
+        if let (Source::Port, Some(port)) = (self.source.get_untracked(), self.port.get_untracked())
+        {
+            adapters::remember(port, &self.profile.get_untracked());
+        }
     }
 
     /// Lets the console run with the profile that is shown.
@@ -209,6 +219,13 @@ pub(crate) fn app(make_worker: &js_sys::Function) -> impl IntoView + use<> {
     app.follow_link(&location_hash());
     Effect::new(move || app.follow_profile());
     Effect::new(move || app.follow_plug());
+    // The engine says which device of a BUS is on the dial: settings go to that one.
+    let watched = Memo::new(move |_| app.snapshot.get().watched);
+    Effect::new(move || {
+        if let Some(address) = watched.get() {
+            app.adopt_address(address);
+        }
+    });
     Effect::new(move || {
         if app.broken.get() {
             match app.source.get_untracked() {

@@ -13,6 +13,7 @@ pub(crate) fn DevicesPanel() -> impl IntoView {
         let link = app.snapshot.get().link;
         link.is_open() && !matches!(link, Link::Opening | Link::Searching)
     });
+    let busy = Memo::new(move |_| app.snapshot.get().busy);
     let scan = Memo::new(move |_| app.snapshot.get().scan);
     let addresses = Memo::new(move |_| {
         let devices = app.snapshot.get().devices;
@@ -21,20 +22,13 @@ pub(crate) fn DevicesPanel() -> impl IntoView {
             .map(|device| device.address)
             .collect::<Vec<_>>()
     });
-    let watched = Memo::new(move |_| app.snapshot.get().watched);
-    // The engine says which device is on the dial: settings go to that one.
-    Effect::new(move || {
-        if let Some(address) = watched.get() {
-            app.adopt_address(address);
-        }
-    });
     move || {
         is_bus.get().then(|| {
             view! {
                 <section class="panel devices">
                     <h2>"Devices on the bus"</h2>
                     <div class="doors">
-                        <button data-testid="scan" disabled=move || !open.get() on:click=move |_| app.send(ToEngine::Scan)>
+                        <button data-testid="scan" disabled=move || !open.get() || busy.get() on:click=move |_| app.send(ToEngine::Scan)>
                             "Scan 32 addresses"
                         </button>
                         <span class="hint" data-testid="scan-result">{move || scan.get()}</span>

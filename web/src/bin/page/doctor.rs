@@ -2,7 +2,7 @@
 
 use crate::{
     app::{App, Source, summary},
-    ports::Obstacle,
+    ports::{AllTheSame, Obstacle},
 };
 use encoderscope::{
     adapter::Made,
@@ -205,17 +205,19 @@ fn rate_text(snapshot: &Snapshot, profile: &Profile) -> String {
             grouped(profile.baud.into())
         );
     }
-    let due = due_bytes(profile);
-    match due {
-        Some(due) if seen > 0.0 && (seen < due * 0.9 || seen > due * 1.1) => {
-            let why = match snapshot.link {
-                Link::Reading => "bytes are lost on the way",
-                _ => "one side runs at another baud rate",
-            };
-            format!("{text}, {} are due: {why}", grouped(due as u64))
+    let due = due_bytes(profile).filter(|_| seen > 0.0);
+    // ASI1 may come without pauses as well (IP-75, 5.3.1), which is all that the rate carries.
+    let why = match (due, &snapshot.link) {
+        (Some(due), Link::Reading) if seen < due * 0.9 => "bytes are lost on the way",
+        (Some(due), Link::Garbage) if seen < due * 0.9 || seen > most.max(due * 1.1) => {
+            "one side runs at another baud rate"
         }
-        _ => text,
-    }
+        _ => return text,
+    };
+    format!(
+        "{text}, {} are due: {why}",
+        grouped(due.unwrap_or(0.0) as u64)
+    )
 }
 
 /// Bytes a second that a stream has by its manual; lines of digits have no fixed length.
@@ -320,6 +322,7 @@ pub(crate) fn LinkState() -> impl IntoView {
                 <p class="hint" role=obstacle.get().map(|_| "alert")>{hint}</p>
             })}
         </div>
+        <AllTheSame />
         {move || other().and_then(|text| link::profile(&text).ok()).map(|profile| view! {
             <p class="suggestion" data-testid="suggestion" data-value=link::query(&profile)>
                 <span>{summary(&profile)}</span>

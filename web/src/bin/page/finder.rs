@@ -4,7 +4,7 @@ use crate::app::{App, summary};
 use encoderscope::{explain::grouped, format::Format, profile::Profile};
 use encoderscope_web::{
     link,
-    message::{Found, Link, Search, Trial},
+    message::{Found, Link, Search, SearchStage, Trial},
 };
 use leptos::prelude::*;
 
@@ -19,6 +19,10 @@ pub(crate) fn FindButton() -> impl IntoView {
 
 /// What a trial was, and what came of it.
 fn trial_text(trial: &Trial) -> String {
+    if !trial.tried {
+        let baud = grouped(trial.baud.into());
+        return format!("{baud} baud · left out: this adapter does not make it");
+    }
     let title = |name: &String| Format::parse(name).map_or("", Format::title);
     let what = match &trial.format {
         None => "listened".into(),
@@ -38,11 +42,13 @@ pub(crate) fn SearchPanel() -> impl IntoView {
     let search = Memo::new(move |_| app.snapshot.get().search);
     move || {
         search.get().map(|search| {
-            let Search { trials, found, done } = search;
-            let verdict = match (done, found.is_empty()) {
-                (false, _) => "Listening and asking, with requests that only read.",
-                (true, false) => "Found:",
-                (true, true) => {
+            let Search { trials, found, stage } = search;
+            let done = stage != SearchStage::Running;
+            let verdict = match (stage, found.is_empty()) {
+                (SearchStage::Running, _) => "Listening and asking, with requests that only read.",
+                (_, false) => "Found:",
+                (SearchStage::BrokenOff, true) => "The search was broken off.",
+                (SearchStage::Ended, true) => {
                     "Nothing was found. Check the supply and the wiring, swap A and B, and that \
                      the adapter makes 2 500 000 baud."
                 }

@@ -8,14 +8,21 @@ use encoderscope::{
     explain::{grouped, grouped_signed},
     format::blinks,
 };
-use encoderscope_web::message::{Lamp, Link, Shown};
+use encoderscope_web::message::{Lamp, Link, Shown, Snapshot};
 use leptos::prelude::*;
+
+/// Whether what is on the dial comes from an encoder that answers now.
+fn is_fresh(snapshot: &Snapshot) -> bool {
+    let mut devices = snapshot.devices.iter();
+    let own = devices.find(|device| Some(u32::from(device.address)) == snapshot.watched);
+    snapshot.link == Link::Reading && own.is_none_or(|device| device.fresh)
+}
 
 #[component]
 pub(crate) fn Angle() -> impl IntoView {
     let app = expect_context::<App>();
     let shown = Memo::new(move |_| app.snapshot.get().reading);
-    let stale = move || shown.get().is_some() && app.snapshot.get().link != Link::Reading;
+    let stale = move || shown.get().is_some() && !is_fresh(&app.snapshot.get());
     let heading = move || match app.source.get() {
         Source::Port => "Angle",
         Source::Demo | Source::Preview => "Demo · angle",

@@ -7,7 +7,7 @@ use crate::{
 use encoderscope::{decode::Decoder, dump, format::Medium, record::hex, sequence::danger};
 use encoderscope_web::{
     link::query,
-    message::{Entry, LogFilter, ToEngine},
+    message::{Entry, Link, LogFilter, ToEngine},
 };
 use leptos::prelude::*;
 
@@ -20,6 +20,13 @@ pub(crate) fn Frames() -> impl IntoView {
     let filter = RwSignal::new(LogFilter::All);
     let held = RwSignal::new(None::<Vec<Entry>>);
     let chosen = RwSignal::new(None::<Entry>);
+    app.send(ToEngine::Log(LogFilter::All));
+    // What was chosen is explained by the profile that it came with.
+    Effect::new(move || {
+        app.profile.track();
+        chosen.set(None);
+        held.set(None);
+    });
     let log = Memo::new(move |_| held.get().unwrap_or_else(|| app.snapshot.get().log));
     let choose = move |entry: Entry| {
         // A row that runs away cannot be looked at.
@@ -181,13 +188,18 @@ fn ByHand(sent: impl Fn() + Copy + Send + 'static) -> impl IntoView {
     let fault = RwSignal::new(None::<String>);
     let question = RwSignal::new(None::<(Vec<u8>, String)>);
     let open = Memo::new(move |_| {
-        let link = app.snapshot.get().link;
-        link.is_open()
-            && app
-                .snapshot
-                .get()
-                .progress
-                .is_none_or(|progress| progress.outcome.is_some())
+        let snapshot = app.snapshot.get();
+        let reads = !matches!(snapshot.link, Link::Opening | Link::Searching);
+        snapshot.link.is_open() && reads && !snapshot.busy
+    });
+    // What was asked about one encoder is not sent to another.
+    let target = Memo::new(move |_| {
+        let open = app.snapshot.get().link.is_open();
+        (open, app.port.get(), app.profile.get())
+    });
+    Effect::new(move || {
+        target.track();
+        question.set(None);
     });
     let send = move || {
         question.set(None);

@@ -4,7 +4,7 @@ use crate::{
     adapters,
     app::{App, Source},
 };
-use encoderscope::profile::Profile;
+use encoderscope::{adapter::Made, explain::grouped, format::Link as Way, profile::Profile};
 use encoderscope_web::{
     browser::error_text,
     link::query,
@@ -15,7 +15,7 @@ use leptos::prelude::*;
 use std::time::Duration;
 
 /// Why there is no port.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Obstacle {
     /// The browser has no Web Serial.
     NoApi,
@@ -27,6 +27,8 @@ pub(crate) enum Obstacle {
     NothingChosen,
     /// The chosen port is not among the known ones.
     NotPluggedIn,
+    /// The adapter does not make the baud rate; the nearest that it makes.
+    RateNotMade(f64),
     /// The engine broke down.
     BrokeDown,
     /// What the browser says.
@@ -51,6 +53,7 @@ impl Obstacle {
             Self::Blocked => "blocked",
             Self::NothingChosen => "nothing-chosen",
             Self::NotPluggedIn => "not-plugged-in",
+            Self::RateNotMade(_) => "rate-not-made",
             Self::BrokeDown => "broke-down",
             Self::Other(_) => "no-port",
         }
@@ -76,6 +79,14 @@ impl Obstacle {
             Self::NotPluggedIn => {
                 "The adapter is not plugged in, or this page may no longer use it. Plug it in, or \
                  choose or add a port."
+            }
+            Self::RateNotMade(nearest) => {
+                return format!(
+                    "The chip of this adapter does not make this baud rate: its driver would take \
+                     about {}, where an encoder may hear a command instead of a request. Use an \
+                     adapter that makes the rate.",
+                    grouped(*nearest as u64)
+                );
             }
             Self::BrokeDown => "The reader broke down. Connect again.",
             Self::Other(text) => text,
@@ -173,6 +184,17 @@ impl App {
         self.port.set(Some(port));
         self.source.set(Source::Port);
         let profile = self.profile.get_untracked();
+        // At another rate an encoder may hear a command where a request was sent.
+        let polled = profile.format.spec().link == Way::Polled;
+        if let (Made::Not(nearest), true, false) = (
+            serial::made(port, profile.baud),
+            polled,
+            self.any_rate.get_untracked(),
+        ) {
+            self.running.set(Some(profile));
+            self.disconnect();
+            return self.obstacle.set(Some(Obstacle::RateNotMade(nearest)));
+        }
         adapters::remember(port, &profile);
         self.running.set(Some(profile));
         self.send(ToEngine::Open {
@@ -207,9 +229,15 @@ impl App {
 
     /// Chooses a port, and the encoder that was behind it last.
     pub(crate) fn choose_port(self, port: PortId) {
+        let open = self.snapshot.get_untracked().link.is_open();
         self.port.set(Some(port));
+        self.any_rate.set(false);
         if let Some(profile) = adapters::recall(port) {
             self.change_profile(profile);
+        }
+        // What is shown as chosen is what settings go to.
+        if open && self.source.get_untracked() == Source::Port {
+            self.open(port);
         }
     }
 
@@ -217,5 +245,27 @@ impl App {
         if let Ok(ports) = serial::known().await {
             self.ports.set(ports);
         }
+    }
+}
+
+/// Connects all the same, where only the adapter's rate is in doubt.
+#[component]
+pub(crate) fn AllTheSame() -> impl IntoView {
+    let app = expect_context::<App>();
+    let doubted = move || matches!(app.obstacle.get(), Some(Obstacle::RateNotMade(_)));
+    move || {
+        doubted().then(|| {
+            view! {
+                <button
+                    data-testid="all-the-same"
+                    on:click=move |_| {
+                        app.any_rate.set(true);
+                        app.connect();
+                    }
+                >
+                    "Connect all the same"
+                </button>
+            }
+        })
     }
 }

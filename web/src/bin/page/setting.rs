@@ -1,11 +1,11 @@
 //! Guided setting: zero, resets and address, with a gate in front and a proof behind.
 
 use crate::{
-    app::App,
+    app::{App, summary},
     eeprom::{Eeprom, byte_text},
 };
-use encoderscope::{profile::Profile, sequence::Change};
-use encoderscope_web::message::{Link, Outcome, Progress, STILL, Setting, Shown, ToEngine};
+use encoderscope::{format::Format, profile::Profile, sequence::Change};
+use encoderscope_web::message::{Link, Progress, STILL, Setting, Shown, ToEngine};
 use leptos::prelude::*;
 
 /// What can be set with a profile.
@@ -72,20 +72,11 @@ pub(crate) fn SettingPanel() -> impl IntoView {
     let progress = Memo::new(move |_| app.snapshot.get().progress);
     let reading = move || app.snapshot.get().link == Link::Reading;
     let settings = Memo::new(move |_| offered(&app.profile.get()));
-    // After an address has been set the encoder is read at the new one.
+    // What was chosen for one encoder is not done to another.
+    let target = Memo::new(move |_| (reading(), app.port.get(), app.profile.get()));
     Effect::new(move || {
-        if let Some(Progress {
-            setting: Setting::Address(address),
-            outcome:
-                Some(Outcome {
-                    changed: Some(true),
-                    ..
-                }),
-            ..
-        }) = progress.get()
-        {
-            app.adopt_address(address.into());
-        }
+        target.track();
+        chosen.set(None);
     });
     let doors = move || {
         settings
@@ -96,7 +87,7 @@ pub(crate) fn SettingPanel() -> impl IntoView {
                 view! {
                     <button
                         data-testid=if start { "zero-start" } else { "setting-start" }
-                        disabled=move || !reading()
+                        disabled=move || !reading() || app.snapshot.get().busy
                         on:click=move |_| chosen.set(Some(setting))
                     >
                         {title(setting)} "…"
@@ -134,6 +125,15 @@ pub(crate) fn SettingPanel() -> impl IntoView {
     }
 }
 
+/// The encoder that a setting goes to.
+fn target(profile: &Profile) -> impl IntoView + use<> {
+    let address = match profile.format {
+        Format::Bus => format!(", address {}", profile.address),
+        _ => String::new(),
+    };
+    view! { {summary(profile)} {address} }
+}
+
 /// What must be so before anything is sent.
 #[component]
 fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
@@ -149,7 +149,8 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
     let ready = move || {
         let rest = !setting.needs_rest() || still();
         let fits = !matches!(setting, Setting::Address(_)) || wanted.get().is_some();
-        rest && fits && app.snapshot.get().link == Link::Reading
+        let snapshot = app.snapshot.get();
+        rest && fits && snapshot.link == Link::Reading && !snapshot.busy
     };
     let gate = move || match moved.get() {
         None => ("lamp idle", "waiting for a second of readings".to_owned()),
@@ -169,6 +170,7 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
     };
     view! {
         <p><b>{title(setting)}</b> ". " {meaning(setting)}</p>
+        <p class="hint">"Goes to " {move || target(&app.profile.get())} "."</p>
         {setting.needs_rest().then(|| view! {
             <p class="hint">"Switch the drive off first. On a vertical axis secure the load: a drive that trusts the old zero may move."</p>
             <p class=move || gate().0 data-testid="gate" data-value=move || still().to_string()>{move || gate().1}</p>
