@@ -2,7 +2,7 @@
 //! fits by evidence. Like [`crate::session::Session`] it does no I/O.
 //!
 //! At each rate it listens first, since free-running encoders tell by themselves; where the line
-//! is quiet it asks what only reads ([`Ask`]), one request at a time, and waits until the line is
+//! is quiet it asks what only reads ([`crate::session::Ask`]), one request at a time, and waits until the line is
 //! quiet again. Requests go out only at rates so far apart that a device at another one of the
 //! manuals hears zeros at most, and of RS485 only `d`, `s` and `t`: the byte of `1` is *set zero*
 //! to a device of a BUS. An adapter that runs at a rate in between could turn a request
@@ -18,14 +18,16 @@
 //! The format and the widths in bytes follow from length and checks. Bits per turn do not
 //! while the shaft stands still, unless the encoder names them: what is left open is said.
 
+mod requests;
 mod weigh;
 
+pub use requests::requests;
+
 use crate::{
-    decode::Decoder,
     detect::{LEAD, LIKELY, Verdict},
-    format::{Format, rs485::Command, t485::Request},
+    format::Format,
     profile::Profile,
-    session::{Ask, Micros, QUIET, TIMEOUT},
+    session::{Micros, QUIET, TIMEOUT},
 };
 use alloc::{collections::VecDeque, string::String, vec::Vec};
 use weigh::{Asked, Weighed};
@@ -43,8 +45,6 @@ const SCAN_TIMEOUT: Micros = 50_000;
 const PATIENCE: Micros = 1_000_000;
 /// How often what has been answered is asked again.
 const ROUNDS: usize = 12;
-/// Addresses on a BUS.
-const ADDRESSES: u8 = 32;
 
 /// What is tried at a baud rate.
 #[derive(Clone, Copy, Debug)]
@@ -450,56 +450,4 @@ impl Finder {
         }
         best >= LIKELY
     }
-}
-
-/// The requests that a search sends for the format of a profile: none of them changes an encoder.
-///
-/// ```
-/// use encoderscope::{finder::requests, format::Format};
-/// assert_eq!(requests(&Format::Rs485.default_profile()).len(), 3);
-/// assert_eq!(requests(&Format::Bus.default_profile()).len(), 32);
-/// ```
-#[must_use]
-pub fn requests(profile: &Profile) -> Vec<Ask> {
-    asks(&decoders(*profile))
-}
-
-/// A decoder for each kind of reply.
-fn decoders(profile: Profile) -> Vec<Decoder> {
-    let of = |command| {
-        let profile = Profile { command, ..profile };
-        Decoder::new(profile).ok()
-    };
-    match profile.format {
-        Format::Rs485 => [Command::Status, Command::Speed, Command::Temperature]
-            .into_iter()
-            .filter_map(of)
-            .collect(),
-        _ => of(profile.command).into_iter().collect(),
-    }
-}
-
-fn asks(decoders: &[Decoder]) -> Vec<Ask> {
-    let Some(first) = decoders.first() else {
-        return Vec::new();
-    };
-    match first.profile().format {
-        Format::T485 => [Request::All, Request::Angle]
-            .into_iter()
-            .filter_map(|request| Ask::t485(first, request, 0).ok())
-            .collect(),
-        Format::Bus => addresses()
-            .filter_map(|address| Ask::device(first, address).ok())
-            .collect(),
-        _ => decoders
-            .iter()
-            .filter_map(|decoder| Ask::position(decoder).ok())
-            .collect(),
-    }
-}
-
-/// The addresses of a BUS, that of the factory first.
-fn addresses() -> impl Iterator<Item = u8> {
-    let factory = ADDRESSES - 1;
-    core::iter::once(factory).chain(0..factory)
 }

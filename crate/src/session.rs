@@ -19,10 +19,11 @@
 
 mod ask;
 mod hand;
-mod stream;
+mod output;
 
 pub use ask::{Ask, Refusal};
 pub use hand::Hand;
+pub use output::{Echo, Output};
 
 use crate::{
     decode::Decoder,
@@ -30,7 +31,7 @@ use crate::{
     framing::{Framer, Why},
 };
 use alloc::{collections::VecDeque, vec::Vec};
-use stream::reported;
+use output::reported;
 
 /// Microseconds.
 pub type Micros = u64;
@@ -51,45 +52,6 @@ const LISTEN_TIMES: Micros = 4;
 const AGREE: u8 = 3;
 /// More than any reply: the line is talking without being asked.
 const FLOOD: usize = 64;
-
-/// What a session has to say.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Output {
-    /// Bytes to send.
-    Transmit(Vec<u8>),
-    /// A reply of the right length, or a frame of a stream.
-    Frame {
-        /// Its bytes.
-        bytes: Vec<u8>,
-        /// Whether it stood where the frame must stand.
-        sure: bool,
-        /// Time from the request, where there was one.
-        latency: Option<Micros>,
-    },
-    /// Bytes that belong to no reply.
-    Skip {
-        /// The bytes.
-        bytes: Vec<u8>,
-        /// Why.
-        why: Why,
-    },
-    /// Nothing came back, or nothing but the echo of the request.
-    Silent {
-        /// Whether the request came back.
-        echo: bool,
-    },
-}
-
-/// Whether the adapter returns what it sends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Echo {
-    /// Not known yet.
-    Unknown,
-    /// Only replies come back.
-    Absent,
-    /// The request comes back before the reply.
-    Present,
-}
 
 #[derive(Clone, Copy, Debug)]
 enum State {

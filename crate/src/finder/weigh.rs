@@ -1,6 +1,9 @@
 //! The evidence: replies to requests, and streams.
 
-use super::{Found, addresses, asks, decoders};
+use super::{
+    Found,
+    requests::{addresses, asks, decoders},
+};
 use crate::{
     bits,
     decode::{Decoded, Decoder},
