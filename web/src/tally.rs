@@ -209,11 +209,13 @@ impl Tally {
         match (good, &frame) {
             (true, Some(frame)) => {
                 self.counts.good += 1.0;
+                // The encoder takes its position when it is asked.
+                let at = now - latency.unwrap_or(0).min(now);
                 if let Some((Some(address), data)) = memory {
                     // It says nothing about the shaft.
                     self.memory = Some(Cell { address, data });
                 } else if self.devices.is_empty() || is_own(&decoder, frame) {
-                    self.take_good(now, frame);
+                    self.take_good(at, frame);
                 }
                 self.good_times.push_back(now);
                 self.forget(now);

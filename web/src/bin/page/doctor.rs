@@ -101,9 +101,13 @@ fn ladder(app: App) -> Vec<Rung> {
             "Checks hold",
             match total > 0.0 {
                 true => format!(
-                    "{} of {}, {percent:.1} % errors",
+                    "{} of {}, {percent:.1} % errors{}",
                     grouped(snapshot.counts.good as u64),
-                    grouped(total as u64)
+                    grouped(total as u64),
+                    match profile.format {
+                        Format::Asi4 => "; ASI4 has no checksum: a disturbed digit goes unseen",
+                        _ => "",
+                    }
                 ),
                 false => String::new(),
             },

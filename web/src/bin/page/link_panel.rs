@@ -42,7 +42,7 @@ pub(crate) fn LinkPanel() -> impl IntoView {
                         view! { <ConnectButton /> }.into_any()
                     }
                 }}
-                {move || (app.source.get() == Source::Port).then(|| view! { <DemoButton /> })}
+                {move || (app.source.get() == Source::Port || !open.get()).then(|| view! { <DemoButton /> })}
                 {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <ConnectButton /> })}
             </div>
             <PortChooser />

@@ -1,7 +1,7 @@
 //! The raw log: every frame with its time, direction, bytes and verdict; and bytes by hand.
 
 use crate::{
-    app::App,
+    app::{App, Source},
     frame_view::{Explained, FrameView},
 };
 use encoderscope::{decode::Decoder, dump, format::Medium, record::hex, sequence::danger};
@@ -89,7 +89,7 @@ pub(crate) fn Frames() -> impl IntoView {
                 </table>
             </div>
             {move || chosen.get().map(|entry| view! { <Inspect entry=entry close=move || { chosen.set(None); held.set(None) } /> })}
-            <ByHand sent=move || show(LogFilter::Beside) />
+            {move || (app.source.get() != Source::Preview).then(|| view! { <ByHand sent=move || show(LogFilter::Beside) /> })}
         </section>
     }
 }
