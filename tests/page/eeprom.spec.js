@@ -1,5 +1,14 @@
 // EEPROM and errors of a Tamagawa encoder: with the demo, and over real Web Serial.
-import { at, expect, expectLink, number, test, until } from './page.js';
+import {
+  at,
+  expect,
+  expectLink,
+  expectOnlyLateBytes,
+  expectOnlyLateFrames,
+  number,
+  test,
+  until,
+} from './page.js';
 import { Encoder } from './encoder.js';
 
 let encoder;
@@ -59,8 +68,7 @@ const readAndWrite = async (page) => {
     await at(page, 'memory-read').click();
     await expectCell(page, data);
   }
-  // A reply that a busy machine delivers late is missed, and the one behind it is not sure.
-  expect(await number(page, 'frames-bad')).toBeLessThanOrEqual(await number(page, 'silent'));
+  await expectOnlyLateFrames(page);
 };
 
 test('a byte of the EEPROM is read and written in the demo', async ({ page }) => {
@@ -102,7 +110,7 @@ test('a byte of the EEPROM is read and written over the wire @serial', async ({ 
   await wire(page, 'still=5.25');
   await until(page, 'angle', (angle) => angle === 2 ** 15);
   await readAndWrite(page);
-  expect(await number(page, 'bytes-skipped')).toBe(0);
+  await expectOnlyLateBytes(page);
   // The angle was shown all the while, and the byte outlives the power.
   await until(page, 'angle', (angle) => angle === 2 ** 15);
   encoder.set('power=off');

@@ -36,3 +36,11 @@ export const expectLink = (page, state) => expect(link(page)).toHaveAttribute('d
 /** Waits until a number satisfies a condition. */
 export const until = (page, id, holds) =>
   expect.poll(async () => holds(await number(page, id)), { message: id }).toBe(true);
+
+/** Frames are bad only where a reply came so late that it was missed: the one behind it is not sure. */
+export const expectOnlyLateFrames = async (page) =>
+  expect(await number(page, 'frames-bad')).toBeLessThanOrEqual(await number(page, 'silent'));
+
+/** Bytes are skipped only where a reply came so late that nobody waited for it any more. */
+export const expectOnlyLateBytes = async (page) =>
+  expect(await number(page, 'bytes-skipped')).toBeLessThanOrEqual(64 * (await number(page, 'silent')));
