@@ -76,7 +76,7 @@ impl History {
 
     /// Takes a good frame. Where it says no speed, that follows from the angles of the last
     /// 100 ms, or from the last two where the turns are counted too; without the turns, neighbours
-    /// must be less than half a turn apart.
+    /// must be less than half a turn and 20 ms apart.
     pub fn take(&mut self, at: Micros, sample: &Sample) {
         self.angle.push(at, sample.degrees);
         let derived = || self.tacho.take(at, sample.degrees, sample.turns);

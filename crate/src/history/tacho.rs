@@ -11,6 +11,9 @@ const SPREAD: Micros = OVER / 2;
 const LONGEST: Micros = 2_000_000;
 /// No more angles than this are kept.
 const ANGLES: usize = 1_024;
+/// Without counted turns, angles further apart than this may have a whole turn between them: at
+/// this distance the speed is right up to 20 revolutions a second.
+const ALONE: Micros = 20_000;
 /// So many turns from one angle to the next may as well be the rest of a turn the other way round.
 const NEARLY_HALF: f64 = 0.4;
 /// A counter that jumps by so many turns has begun anew.
@@ -77,7 +80,7 @@ fn step(last: &Place, at: Micros, part: f64, turns: Option<f64>) -> Option<f64> 
     let parts = part - last.part;
     match last.turns.zip(turns).map(|(before, turns)| turns - before) {
         Some(turns) if turns > -JUMP && turns < JUMP => (apart <= LONGEST).then_some(turns + parts),
-        _ => Some(shortest_way(parts)).filter(|part| apart <= OVER && part.abs() < NEARLY_HALF),
+        _ => Some(shortest_way(parts)).filter(|part| apart <= ALONE && part.abs() < NEARLY_HALF),
     }
 }
 

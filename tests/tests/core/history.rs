@@ -340,9 +340,10 @@ fn counted_turns_give_a_speed_from_frames_far_apart() {
         let speed = at_speed(7.3, apart, true).unwrap();
         assert!((speed - 7.3).abs() < 1e-6, "{apart}: {speed}");
     }
-    assert!((at_speed(2.4, 50_000, false).unwrap() - 2.4).abs() < 1e-6);
+    assert!((at_speed(12.4, 20_000, false).unwrap() - 12.4).abs() < 1e-6);
     // Without the turns nobody knows how often it went round meanwhile.
     assert_eq!(at_speed(7.3, 1_000_000, false), None);
+    assert_eq!(at_speed(50.0, 25_000, false), None);
     assert_eq!(at_speed(7.3, 3_000_000, true), None);
 }
 
