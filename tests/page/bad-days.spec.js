@@ -1,18 +1,12 @@
 // Bad days over real Web Serial: a tab in the background, asleep, or closed, and noise.
 import { at, expect, expectLink, expectOnlyLateFrames, number, test, until } from './page.js';
-import { Encoder } from './encoder.js';
+import { Encoder, options } from './encoder.js';
 
 let encoder;
 test.afterEach(async () => {
   await encoder?.unplug();
   encoder = undefined;
 });
-
-const options = (query) =>
-  query.split('&').flatMap((pair) => {
-    const [key, value] = pair.split('=');
-    return [`--${key}`, value];
-  });
 
 const connect = async (page, query) => {
   await page.goto(`/#/console?${query}`);

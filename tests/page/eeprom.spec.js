@@ -9,7 +9,7 @@ import {
   test,
   until,
 } from './page.js';
-import { Encoder } from './encoder.js';
+import { Encoder, options } from './encoder.js';
 
 let encoder;
 test.afterEach(async () => {
@@ -26,11 +26,8 @@ const demo = async (page) => {
 };
 
 const wire = async (page, ...settings) => {
-  const options = QUERY.split('&').flatMap((pair) => {
-    const [key, value] = pair.split('=');
-    return [`--${key}`, value];
-  });
-  encoder = await Encoder.start(...options, ...settings);
+  const words = options(QUERY);
+  encoder = await Encoder.start(...words, ...settings);
   await page.goto(`/#/console?${QUERY}`);
   await at(page, 'connect').click();
   await expectLink(page, 'reading');

@@ -9,7 +9,7 @@ import {
   test,
   until,
 } from './page.js';
-import { Encoder, blockPort } from './encoder.js';
+import { blockPort, Encoder, options } from './encoder.js';
 
 let encoder;
 const plug = async (...words) => {
@@ -42,11 +42,8 @@ for (const [name, query] of [
   ['RS485', 'format=rs485&angle-bits=24&command=d&baud=2500000'],
 ]) {
   test(`${name} is read through the worker, the angle moves, unplugging is said @serial`, async ({ page }) => {
-    const options = query.split('&').flatMap((pair) => {
-      const [key, value] = pair.split('=');
-      return [`--${key}`, value];
-    });
-    await plug(...options, 'turning=0.2');
+    const words = options(query);
+    await plug(...words, 'turning=0.2');
     await connect(page, query);
     await expectLink(page, 'reading');
     const first = await number(page, 'angle');
@@ -69,7 +66,7 @@ for (const [name, query] of [
     await expect(at(page, 'connect')).toHaveText('Reconnect');
 
     // The browser says that it is back, and nobody needs to ask again.
-    await plug(...options, 'still=0.25');
+    await plug(...words, 'still=0.25');
     await page.evaluate(() => navigator.serial.dispatchEvent(new Event('connect')));
     await expectLink(page, 'reading');
     await until(page, 'angle', (angle) => angle === 2 ** (name === 'T485' ? 21 : 22));
@@ -82,11 +79,8 @@ for (const [name, query, angle] of [
   ['ASI4', 'format=asi4&angle-bits=14&baud=230400', 2 ** 12],
 ]) {
   test(`${name} is joined while it streams @serial`, async ({ page }) => {
-    const options = query.split('&').flatMap((pair) => {
-      const [key, value] = pair.split('=');
-      return [`--${key}`, value];
-    });
-    await plug(...options, 'turning=0.2');
+    const words = options(query);
+    await plug(...words, 'turning=0.2');
     await connect(page, query);
     await expectLink(page, 'reading');
     const first = await number(page, 'angle');

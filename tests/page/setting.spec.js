@@ -1,6 +1,6 @@
 // Guided setting: with the demo encoder in any browser, and over real Web Serial.
 import { at, expect, expectLink, number, test, until } from './page.js';
-import { Encoder } from './encoder.js';
+import { Encoder, options } from './encoder.js';
 
 let encoder;
 test.afterEach(async () => {
@@ -9,11 +9,8 @@ test.afterEach(async () => {
 });
 
 const plug = async (page, query, ...settings) => {
-  const options = query.split('&').flatMap((pair) => {
-    const [key, value] = pair.split('=');
-    return [`--${key}`, value];
-  });
-  encoder = await Encoder.start(...options, ...settings);
+  const words = options(query);
+  encoder = await Encoder.start(...words, ...settings);
   await page.goto(`/#/console?${query}`);
   await at(page, 'connect').click();
   await expectLink(page, 'reading');
