@@ -64,7 +64,7 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
             .map(|(name, value)| (name.as_str(), value.as_str())),
     )?;
     let decoder = Decoder::new(profile)?;
-    let dump = dump::parse(&text, profile.format.medium());
+    let dump = dump::parse(&text, profile.medium());
     let mut broken = Ok(());
     let summary = decoder.dump(&dump, &mut |decoded| {
         if let Decoded::Frame(frame) = decoded

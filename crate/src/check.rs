@@ -4,11 +4,13 @@
 //! length is right-aligned into bytes first.
 
 use crate::bits::{Bits, Span};
-use crc::{Algorithm, Crc};
+use alloc::{format, string::String};
+use core::fmt;
+use crc::{Algorithm, Crc, NoTable};
 
-/// The longest checked run in bytes: 64 data bits, two flags and eight status bits of BiSS-C,
-/// rounded up.
-const LONGEST: usize = 16;
+/// The longest checked run in bytes that does not consist of whole bytes: that of the longest
+/// layout a user may write.
+const LONGEST: usize = 32;
 
 static CRC8_97: Crc<u8> = Crc::<u8>::new(&Algorithm {
     width: 8,
@@ -69,6 +71,8 @@ pub enum Checksum {
     EvenParity,
     /// One bit that makes the number of ones odd: the request of BUS.
     OddParity,
+    /// A CRC of the user's own.
+    Own(&'static OwnCrc),
 }
 
 impl Checksum {
@@ -102,6 +106,7 @@ impl Checksum {
             Self::Crc16x8005 => CRC16_8005.checksum(bytes).into(),
             Self::EvenParity => ones(),
             Self::OddParity => 1 - ones(),
+            Self::Own(own) => own.crc.checksum(bytes),
         }
     }
 
@@ -113,12 +118,23 @@ impl Checksum {
             Self::Crc6Biss => 6,
             Self::Crc16x8005 => 16,
             Self::EvenParity | Self::OddParity => 1,
+            Self::Own(own) => own.crc.algorithm.width as u32,
+        }
+    }
+
+    /// Whether zeros in front of what it covers leave it as it is, and a good run followed by
+    /// zeros is good again.
+    pub(crate) const fn ignores_zeros(self) -> bool {
+        match self {
+            Self::Crc8x97 => true,
+            Self::Own(own) => own.crc.algorithm.init == 0 && own.crc.algorithm.xorout == 0,
+            _ => false,
         }
     }
 
     /// The name with the polynomial, as a person would look it up.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Crc8x97 => "CRC-8, x⁸+x⁷+x⁴+x²+x+1",
             Self::Crc8Xor => "CRC-8, x⁸+1 (exclusive or of all bytes)",
@@ -126,6 +142,49 @@ impl Checksum {
             Self::Crc16x8005 => "CRC-16, x¹⁶+x¹⁵+x²+1",
             Self::EvenParity => "even parity",
             Self::OddParity => "odd parity",
+            Self::Own(own) => &own.name,
         }
+    }
+}
+
+/// A CRC whose parameters a user gave.
+pub struct OwnCrc {
+    name: String,
+    crc: Crc<u64, NoTable>,
+}
+
+impl OwnCrc {
+    /// The CRC of an algorithm.
+    #[must_use]
+    pub fn new(algorithm: &'static Algorithm<u64>) -> Self {
+        let Algorithm {
+            width,
+            poly,
+            init,
+            refin,
+            xorout,
+            ..
+        } = algorithm;
+        let order = if *refin { ", last bit first" } else { "" };
+        Self {
+            name: format!(
+                "CRC-{width}, polynomial 0x{poly:02X}, init 0x{init:X}, xor 0x{xorout:X}{order}"
+            ),
+            crc: Crc::<u64, NoTable>::new(algorithm),
+        }
+    }
+}
+
+impl PartialEq for OwnCrc {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for OwnCrc {}
+
+impl fmt::Debug for OwnCrc {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
     }
 }

@@ -135,6 +135,7 @@ impl Decoder {
             Format::Rs485 => one(profile.command.reply()),
             Format::Period => one(period::FRAME),
             Format::Asi1 => one(&asi1::PACKET),
+            Format::Own => profile.own.map_or(Vec::new(), |own| one(own.layout())),
             Format::Asi4 => (1..=asi4::DIGITS as u32)
                 .map(|digits| Resolved::new(&asi4::LINE, Shape { digits, ..shape }))
                 .collect(),
@@ -147,7 +148,7 @@ impl Decoder {
                 .map(|operation| Resolved::new(operation.reply(), shape))
                 .collect(),
         };
-        let layouts = match profile.format.medium() {
+        let layouts = match profile.medium() {
             Medium::Bits => layouts,
             Medium::Bytes | Medium::Text => layouts.into_iter().map(Resolved::sieved).collect(),
         };
@@ -156,7 +157,7 @@ impl Decoder {
             layouts,
             leads: [NO_LEAD; 256],
         };
-        if profile.format.medium() == Medium::Bytes {
+        if profile.medium() == Medium::Bytes {
             decoder.leads = core::array::from_fn(|byte| decoder.lead(byte as u8));
         }
         Ok(decoder)
@@ -250,7 +251,7 @@ impl Decoder {
     /// Decodes a whole dump; `sink` gets every stretch of it in order.
     pub fn dump(&self, dump: &Dump, sink: &mut dyn FnMut(Decoded<'_>)) -> Summary {
         let mut summary = Summary::default();
-        match self.profile.format.medium() {
+        match self.profile.medium() {
             Medium::Bytes | Medium::Text => {
                 let bytes = dump.bytes();
                 summary.bytes = bytes.len() as u64;

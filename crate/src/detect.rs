@@ -118,9 +118,9 @@ pub fn detect(text: &str) -> Vec<Candidate> {
     // Strings of 0 and 1 are clocked words.
     let bits_only = dumps[1].is_bits();
     let mut found: Vec<Candidate> = hypotheses()
-        .filter(|profile| !bits_only || profile.format.medium() == Medium::Bits)
+        .filter(|profile| !bits_only || profile.medium() == Medium::Bits)
         .filter_map(|profile| {
-            let dump = match profile.format.medium() {
+            let dump = match profile.medium() {
                 Medium::Bytes => &dumps[0],
                 Medium::Bits => &dumps[1],
                 Medium::Text => &dumps[2],

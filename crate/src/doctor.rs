@@ -178,7 +178,7 @@ impl Doctor {
     }
 
     fn is_stream(&self) -> bool {
-        self.profile.format.spec().link == Link::Stream
+        self.profile.link() == Link::Stream
     }
 
     /// Keeps bytes to be looked at.

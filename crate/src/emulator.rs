@@ -169,7 +169,7 @@ impl Emulator {
         if self.faults.unplugged {
             return;
         }
-        let polled = self.profile().format.spec().link == Link::Polled;
+        let polled = self.profile().link() == Link::Polled;
         let baud = self.profile().baud;
         let rate = self.faults.rate.unwrap_or(baud);
         if self.faults.echo && rate != baud {
@@ -319,7 +319,7 @@ impl Emulator {
     }
 
     fn is_streaming(&self) -> bool {
-        let stream = self.profile().format.spec().link == Link::Stream;
+        let stream = self.profile().link() == Link::Stream;
         stream && self.off_at.is_none() && !self.faults.silent && !self.faults.unplugged
     }
 

@@ -7,6 +7,7 @@ pub mod asi1;
 pub mod asi4;
 pub mod biss_c;
 pub mod bus;
+pub mod own;
 pub mod period;
 pub mod rs485;
 pub mod ssi;
@@ -43,6 +44,8 @@ pub enum Format {
     Ssi7,
     /// Pepperl+Fuchs and the classic SSI word: [`ssi_tree`].
     SsiTree,
+    /// A layout of the user's own: [`own`].
+    Own,
 }
 
 /// How frames come.
@@ -100,7 +103,7 @@ pub struct Spec {
 }
 
 impl Format {
-    /// All formats, in the order of their manuals' pages.
+    /// All formats of the manuals, in the order of their pages.
     pub const ALL: &[Self] = &[
         Self::Ssi,
         Self::BissC,
@@ -128,6 +131,7 @@ impl Format {
             Self::Asi4 => &asi4::SPEC,
             Self::Ssi7 => &ssi7::SPEC,
             Self::SsiTree => &ssi_tree::SPEC,
+            Self::Own => &own::SPEC,
         }
     }
 
@@ -146,36 +150,18 @@ impl Format {
     /// The format of a name.
     #[must_use]
     pub fn parse(name: &str) -> Option<Self> {
-        Self::ALL
-            .iter()
-            .copied()
-            .find(|format| format.name().eq_ignore_ascii_case(name))
+        Self::known().find(|format| format.name().eq_ignore_ascii_case(name))
     }
 
     /// All names, with spaces between.
     #[must_use]
     pub fn names() -> String {
-        Self::ALL
-            .iter()
-            .map(|format| format.name())
-            .collect::<Vec<_>>()
-            .join(" ")
+        Self::known().map(Self::name).collect::<Vec<_>>().join(" ")
     }
 
-    /// What a dump consists of.
-    #[must_use]
-    pub const fn medium(self) -> Medium {
-        match (self, self.spec().link) {
-            (_, Link::Clocked) => Medium::Bits,
-            (Self::Asi4, _) => Medium::Text,
-            (_, Link::Polled | Link::Stream) => Medium::Bytes,
-        }
-    }
-
-    /// Whether the encoder is read over a serial port.
-    #[must_use]
-    pub const fn is_serial(self) -> bool {
-        !matches!(self.spec().link, Link::Clocked)
+    /// The formats of the manuals, and the user's own.
+    fn known() -> impl Iterator<Item = Self> {
+        Self::ALL.iter().copied().chain([Self::Own])
     }
 
     /// Microseconds from one frame of a stream to the next.
@@ -185,6 +171,7 @@ impl Format {
             Self::Period => Some(period::INTERVAL),
             Self::Asi1 => Some(asi1::INTERVAL),
             Self::Asi4 => Some(asi4::INTERVAL),
+            Self::Own => Some(own::INTERVAL),
             _ => None,
         }
     }

@@ -204,6 +204,26 @@ pub enum Weight {
     Advisory,
 }
 
+/// Number of bits of a row.
+#[derive(Clone, Copy, Debug)]
+pub enum Width {
+    /// What the shape of the frame makes it.
+    Of(fn(&Shape) -> u32),
+    /// Always the same.
+    Bits(u32),
+}
+
+impl Width {
+    /// The number for a shape.
+    #[must_use]
+    pub fn of(self, shape: &Shape) -> usize {
+        match self {
+            Self::Of(width) => width(shape) as usize,
+            Self::Bits(width) => width as usize,
+        }
+    }
+}
+
 /// One row of a layout table.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
@@ -213,8 +233,8 @@ pub struct Row {
     pub role: Role,
     /// The manual's explanation, in lines.
     pub doc: &'static [&'static str],
-    /// Number of bits for a frame shape.
-    pub width: fn(&Shape) -> u32,
+    /// Number of bits.
+    pub width: Width,
     /// Which level asserts a flag.
     pub active: Active,
     /// What framing bits without a fixed value are when nobody says otherwise.
@@ -238,7 +258,7 @@ impl Row {
         name: &'static str,
         role: Role,
         doc: &'static [&'static str],
-        width: fn(&Shape) -> u32,
+        width: Width,
     ) -> Self {
         Self {
             name,
@@ -329,7 +349,7 @@ macro_rules! layout {
                 stringify!($name),
                 $crate::layout::Role::$role,
                 &[$($doc),*],
-                |$p: &$crate::layout::Shape| { let _ = $p; $width },
+                $crate::layout::Width::Of(|$p: &$crate::layout::Shape| { let _ = $p; $width }),
             )
         }
     };

@@ -5,10 +5,16 @@
 
 mod choice;
 
+pub(crate) use choice::choice;
 pub use choice::{Align, Choice, Code, Dialect, Justify, Marker, Parity, StatusActive, TurnsCode};
 
 use crate::{
-    format::{Format, rs485::Command, ssi_tree},
+    format::{
+        Format, Link, Medium,
+        own::{self, Own},
+        rs485::Command,
+        ssi_tree,
+    },
     model,
     record::Value,
 };
@@ -63,6 +69,8 @@ pub struct Profile {
     pub baud: u32,
     /// On which side the bits of a dump stand in its bytes.
     pub justify: Justify,
+    /// A layout of the user's own.
+    pub own: Option<&'static Own>,
 }
 
 /// What is wrong with a parameter.
@@ -98,6 +106,12 @@ struct Parameter {
 }
 
 const PARAMETERS: &[Parameter] = &[
+    Parameter {
+        name: "layout",
+        words: &[],
+        show: |p| p.own.map_or("", Own::short).into(),
+        set: |p, text| own::of(text).map(|own| own.fit(p)),
+    },
     Parameter {
         name: "angle-bits",
         words: &[],
@@ -231,7 +245,36 @@ impl Profile {
             marker: Marker::None,
             baud: 2_500_000,
             justify: Justify::Right,
+            own: None,
         }
+    }
+
+    /// The name of the format for people; of the user's own layouts their title.
+    #[must_use]
+    pub fn title(&self) -> &'static str {
+        self.own.map_or(self.format.title(), Own::title)
+    }
+
+    /// How frames come.
+    #[must_use]
+    pub fn link(&self) -> Link {
+        self.own.map_or(self.format.spec().link, Own::link)
+    }
+
+    /// What a dump consists of.
+    #[must_use]
+    pub fn medium(&self) -> Medium {
+        match (self.link(), self.format) {
+            (Link::Clocked, _) => Medium::Bits,
+            (_, Format::Asi4) => Medium::Text,
+            (Link::Polled | Link::Stream, _) => Medium::Bytes,
+        }
+    }
+
+    /// Whether the encoder is read over a serial port.
+    #[must_use]
+    pub fn is_serial(&self) -> bool {
+        self.link() != Link::Clocked
     }
 
     /// A profile from names and values, in any order; `model` stands for all it implies.
@@ -274,11 +317,13 @@ impl Profile {
                 ));
             }
         };
-        for (name, value) in &pairs {
-            if name == "format" || name == "model" {
-                continue;
+        // What a layout implies gives way to what is said beside it.
+        let (layouts, others): (Vec<_>, Vec<_>) =
+            pairs.iter().partition(|(name, _)| name == "layout");
+        for (name, value) in layouts.into_iter().chain(others) {
+            if name != "format" && name != "model" {
+                profile.set(name, value)?;
             }
-            profile.set(name, value)?;
         }
         if find("frame-bits").is_none() && find("model").is_none() {
             profile.frame_bits = profile.natural_frame_bits();
@@ -367,6 +412,15 @@ impl Profile {
     ///
     /// Names the parameter that is out of range, and the range.
     pub fn check(&self) -> Result<(), ProfileError> {
+        if (self.format == Format::Own) != self.own.is_some() {
+            return Err(match self.own {
+                None => error(
+                    "layout",
+                    format!("is missing; write one, or one of: {}", own::names()),
+                ),
+                Some(_) => error("layout", format!("is not for {}", self.format.title())),
+            });
+        }
         let limits = self.format.limits();
         let range = |name, value: u32, low: u32, high: u32| {
             let used = matches!(name, "angle-bits" | "turns-bits")

@@ -113,7 +113,7 @@ impl Session {
     /// The format has no serial line, or its command would change the encoder.
     pub fn new(decoder: Decoder, interval: Micros) -> Result<Self, Refusal> {
         let profile = decoder.profile();
-        let polls = match profile.format.spec().link {
+        let polls = match profile.link() {
             Link::Clocked => return Err(Refusal::NotSerial(profile.format)),
             Link::Stream => Vec::new(),
             Link::Polled => Vec::from([Ask::position(&decoder)?]),
@@ -310,7 +310,7 @@ impl Session {
     }
 
     fn is_stream(&self) -> bool {
-        self.decoder.profile().format.spec().link == Link::Stream
+        self.decoder.profile().link() == Link::Stream
     }
 
     /// Cuts a stream into frames.

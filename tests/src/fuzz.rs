@@ -169,7 +169,7 @@ impl<'a> Input<'a> {
 
 /// The formats whose dumps are one stream of bytes.
 fn streams() -> Vec<Format> {
-    let streamed = |format: &Format| format.medium() != Medium::Bits;
+    let streamed = |format: &Format| format.default_profile().medium() != Medium::Bits;
     Format::ALL.iter().copied().filter(streamed).collect()
 }
 

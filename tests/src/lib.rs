@@ -25,7 +25,7 @@ pub fn decoder(parameters: &str) -> Decoder {
 /// A dump as a user would paste it for this decoder.
 #[must_use]
 pub fn paste(decoder: &Decoder, text: &str) -> Dump {
-    dump::parse(text, decoder.profile().format.medium())
+    dump::parse(text, decoder.profile().medium())
 }
 
 /// A stretch of decoded input, in short.

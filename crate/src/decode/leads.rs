@@ -3,7 +3,7 @@
 use super::Decoder;
 use crate::{
     bits::Bits,
-    format::{Format, asi4, bus, t485},
+    format::{Format, asi4, bus, own::Own, t485},
     layout::Resolved,
     profile::Dialect,
 };
@@ -60,7 +60,7 @@ impl Decoder {
             Format::Rs485 => byte == self.profile.command.byte(),
             Format::T485 => asked.is_some(),
             Format::Bus => names > 0,
-            _ => false,
+            _ => self.profile.own.and_then(Own::request) == Some(byte),
         };
         Lead {
             layout: index.map_or(u8::MAX, |index| index as u8),
@@ -137,8 +137,11 @@ impl Decoder {
 
     /// Whether a reply begins with the byte that was asked.
     #[must_use]
-    pub const fn echoes(&self) -> bool {
-        matches!(self.profile.format, Format::T485 | Format::Bus)
+    pub fn echoes(&self) -> bool {
+        match self.profile.own {
+            Some(own) => own.echoes(),
+            None => matches!(self.profile.format, Format::T485 | Format::Bus),
+        }
     }
 
     /// Whether a frame that begins with `byte` needs no more proof of its place than its checks.

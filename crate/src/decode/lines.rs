@@ -24,7 +24,11 @@ impl Decoder {
 
     fn shapes(&self, bits: Bits<'_>) -> Result<Shapes, Why> {
         let found = match self.profile.format {
-            Format::BissC => biss_c::shapes(&self.profile, bits),
+            _ if self.layouts[0].shape.preamble => {
+                let before = Resolved::new(&biss_c::PREAMBLE, self.layouts[0].shape).len;
+                let data = self.layouts[0].len.saturating_sub(before) as u32;
+                biss_c::shapes(&self.profile, data, bits)
+            }
             Format::SsiTree => ssi_tree::shapes(&self.profile, bits),
             _ => ssi::shapes(self.table(), &self.profile, bits),
         };
@@ -64,7 +68,7 @@ impl Decoder {
         let rivals = others
             .map(|other| self.shaped(*other))
             .filter(|other| other.holds(bits) && other.reading(bits) != layout.reading(bits));
-        let sure = self.profile.format == Format::BissC || rivals.count() == 0;
+        let sure = self.layouts[0].shape.preamble || rivals.count() == 0;
         Ok(Frame {
             start: 0,
             layout,

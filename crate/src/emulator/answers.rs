@@ -82,7 +82,7 @@ impl Emulator {
             Format::T485 => self.answer_t485(now, byte),
             Format::Rs485 => self.answer_rs485(now, byte),
             Format::Bus => self.answer_bus(now, byte),
-            _ => None,
+            _ => self.answer_own(now, byte),
         };
         self.talk.last = byte;
         reply.unwrap_or_default()
@@ -90,6 +90,15 @@ impl Emulator {
 
     fn resolved(&self, layout: &'static Layout) -> Resolved {
         Resolved::new(layout, Shape::of(*self.profile()))
+    }
+
+    fn answer_own(&self, now: Micros, byte: u8) -> Option<Vec<u8>> {
+        let own = self
+            .profile()
+            .own
+            .filter(|own| own.request() == Some(byte))?;
+        let layout = self.resolved(own.layout());
+        Some(layout.encode(&self.values(now)).into_bytes())
     }
 
     fn answer_rs485(&mut self, now: Micros, byte: u8) -> Option<Vec<u8>> {

@@ -60,14 +60,7 @@ pub const SPEC: Spec = Spec {
 layout! {
     /// BiSS-C frame with what stands around it in a dump.
     pub static FRAME(p) {
-        /// Line idle before the frame.
-        idle: Framing[p.idle], rest = |_| u64::MAX;
-        /// Acknowledge: the encoder pulls the line low while it gets its data ready.
-        ack: Framing[if p.preamble { p.ack } else { 0 }], constant = Some(0);
-        /// Start bit, the first bit after the latency.
-        start: Framing[u32::from(p.preamble)], constant = Some(1);
-        /// Control data bit, unused by these encoders.
-        cds: Framing[u32::from(p.preamble)];
+        include PREAMBLE;
         /// Whole turns.
         turns: Turns[p.turns_bits];
         /// Angle within one turn.
@@ -84,6 +77,27 @@ layout! {
             bits = STATUS, active = Active::Low;
         /// Inverted remainder over everything from the turns to the bit before it.
         crc: Crc[6], check = Check::from(Checksum::Crc6Biss, "turns");
+        include BEHIND;
+    }
+}
+
+layout! {
+    /// What stands before the data of a BiSS-C frame.
+    pub static PREAMBLE(p) {
+        /// Line idle before the frame.
+        idle: Framing[p.idle], rest = |_| u64::MAX;
+        /// Acknowledge: the encoder pulls the line low while it gets its data ready.
+        ack: Framing[if p.preamble { p.ack } else { 0 }], constant = Some(0);
+        /// Start bit, the first bit after the latency.
+        start: Framing[u32::from(p.preamble)], constant = Some(1);
+        /// Control data bit, unused by these encoders.
+        cds: Framing[u32::from(p.preamble)];
+    }
+}
+
+layout! {
+    /// What stands behind the data of a BiSS-C frame.
+    pub static BEHIND(p) {
         /// Time-out and line idle after the frame.
         tail: Framing[p.tail];
     }
@@ -95,7 +109,7 @@ pub const fn data_bits(profile: &Profile) -> u32 {
     profile.turns_bits + profile.angle_bits + 2 + profile.status_bits + Checksum::Crc6Biss.width()
 }
 
-/// Finds the shapes that a line can have: behind a preamble, alone from the first bit on, alone
+/// Finds the shapes that a line with `data` bits of data can have: behind a preamble, alone from the first bit on, alone
 /// up to the last bit.
 ///
 /// Data that starts with zeros and a one looks like a preamble too, so several may fit.
@@ -103,11 +117,10 @@ pub const fn data_bits(profile: &Profile) -> u32 {
 /// # Errors
 ///
 /// The line is too short for any; says how many bits it would need.
-pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
-    let data = data_bits(profile);
+pub fn shapes(profile: &Profile, data: u32, bits: Bits<'_>) -> Result<Shapes, u32> {
     let before = (bits.len() as u32).checked_sub(data).ok_or(data)?;
     match profile.justify {
-        Justify::Left => left(profile, bits, before),
+        Justify::Left => left(profile, data, bits, before),
         Justify::Right => Ok([
             right(profile, bits, before),
             None,
@@ -116,7 +129,7 @@ pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
     }
 }
 
-fn left(profile: &Profile, bits: Bits<'_>, spare: u32) -> Result<Shapes, u32> {
+fn left(profile: &Profile, data: u32, bits: Bits<'_>, spare: u32) -> Result<Shapes, u32> {
     // Without a preamble no more than the padding of the last or first byte can be spare.
     let padded = spare < 8;
     let zeros = (0..spare as usize).all(|at| !bits.bit(at));
@@ -139,7 +152,7 @@ fn left(profile: &Profile, bits: Bits<'_>, spare: u32) -> Result<Shapes, u32> {
             // A capture with the profile's own preamble that ends too early is a short frame:
             // its CRC-6 read at the wrong place would pass once in 64.
             None if idle > 0 && ack == profile.ack_bits => {
-                return Err(idle + ack + 2 + data_bits(profile));
+                return Err(idle + ack + 2 + data);
             }
             None => {}
         }

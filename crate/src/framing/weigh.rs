@@ -57,9 +57,8 @@ impl Framer {
                 };
                 let lead = other.is_none_or(|(_, score)| own.score - score >= LEAD);
                 if passes {
-                    let confirmed = anchored
-                        || own.passes > 1
-                        || decoder.profile().format.spec().link != Link::Stream;
+                    let confirmed =
+                        anchored || own.passes > 1 || decoder.profile().link() != Link::Stream;
                     let frame = &rest[..layout.len / 8];
                     let unrivalled = anchored && other.is_none() && layout.is_sound(frame);
                     let sure = lead

@@ -35,7 +35,10 @@ impl Shape {
     /// The shape in which the profile itself describes a whole frame.
     #[must_use]
     pub const fn of(profile: Profile) -> Self {
-        let framed = matches!(profile.format, Format::BissC);
+        let framed = match profile.own {
+            Some(own) => own.is_biss(),
+            None => matches!(profile.format, Format::BissC),
+        };
         Self {
             unused: 0,
             idle: framed as u32,
@@ -157,9 +160,9 @@ impl Resolved {
             redundancy: fields.iter().map(redundant).sum(),
             has_angle: fields.iter().any(|field| field.row.role == Role::Angle),
             is_checked: fields.iter().any(Field::is_binding),
-            is_zero_led: fields
-                .iter()
-                .any(|field| matches!(field.cover, Some((Checksum::Crc8x97, Covered::Run(_))))),
+            is_zero_led: fields.iter().any(
+                |field| matches!(field.cover, Some((sum, Covered::Run(_))) if sum.ignores_zeros()),
+            ),
             fields,
             parts,
             coded: plan.coded,
@@ -317,7 +320,7 @@ impl Plan {
     }
 
     fn row(&mut self, row: &'static Row, shape: &Shape, at: usize) -> usize {
-        let span = Span::new(at, (row.width)(shape) as usize);
+        let span = Span::new(at, row.width.of(shape));
         self.runs.push((row, span));
         span.end()
     }
@@ -338,11 +341,11 @@ impl Plan {
 
     /// Lays `rows` out as one big-endian number from bit `start`, then reverses its bytes.
     fn little_endian(&mut self, rows: &'static [Row], shape: &Shape, start: usize) -> usize {
-        let total: usize = rows.iter().map(|row| (row.width)(shape) as usize).sum();
+        let total: usize = rows.iter().map(|row| row.width.of(shape)).sum();
         let bytes = total.div_ceil(8);
         let mut at = bytes * 8 - total;
         for row in rows {
-            let end = at + (row.width)(shape) as usize;
+            let end = at + row.width.of(shape);
             if at == end {
                 self.runs.push((row, Span::new(start, 0)));
             }

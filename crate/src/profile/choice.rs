@@ -125,3 +125,4 @@ choice! {
         First = "first",
     }
 }
+pub(crate) use choice;

@@ -6,6 +6,7 @@ use crate::{
     format::{
         Format,
         bus::{self, Operation},
+        own::Own,
         t485::{self, Request},
     },
     layout::{Resolved, Role, Shape},
@@ -62,7 +63,7 @@ impl core::error::Error for Refusal {}
 
 impl Ask {
     /// What reads the position: T485 everything, RS485 the profile's command, BUS the profile's
-    /// device.
+    /// device, a user's own layout its request.
     ///
     /// # Errors
     ///
@@ -76,7 +77,10 @@ impl Ask {
                 Err(Refusal::ChangesEncoder(profile.command.byte()))
             }
             Format::Rs485 => Self::byte(decoder, profile.command.byte()),
-            other => Err(Refusal::NotSerial(other)),
+            other => match profile.own.and_then(Own::request) {
+                Some(byte) => Self::byte(decoder, byte),
+                None => Err(Refusal::NotSerial(other)),
+            },
         }
     }
 

@@ -28,7 +28,7 @@ pub fn decode(data: &[u8]) {
 }
 
 fn text(decoder: &Decoder, text: &str) {
-    let dump = dump::parse(text, decoder.profile().format.medium());
+    let dump = dump::parse(text, decoder.profile().medium());
     let mut last = 0;
     for place in &dump.unread {
         assert!(last <= place.start && !text[place.clone()].is_empty());
@@ -130,7 +130,7 @@ fn check_encoding(layout: &Resolved, bits: Bits<'_>) {
 
 /// What was encoded from the numbers of a good frame is a good frame with these numbers.
 fn check_decoding(decoder: &Decoder, encoded: Bits<'_>, values: &Values) {
-    let frame = match decoder.profile().format.medium() {
+    let frame = match decoder.profile().medium() {
         Medium::Bits => decoder.line(encoded).expect("a whole frame"),
         Medium::Bytes | Medium::Text => decoder.frame(encoded.bytes()).expect("a whole frame"),
     };
@@ -151,7 +151,7 @@ fn numbers(decoder: &Decoder, input: &mut Input<'_>) {
         values.status = values.status.map(|status| status & 0xf0);
     }
     let encoded = decoder.encode(&values);
-    let frame = match profile.format.medium() {
+    let frame = match profile.medium() {
         Medium::Bits => decoder.line(encoded.as_bits()).ok(),
         Medium::Bytes | Medium::Text => decoder.frame(encoded.as_bits().bytes()),
     };
@@ -184,7 +184,7 @@ fn clocked(decoder: &Decoder, input: &mut Input<'_>) {
     encoder.status = input.byte() & 0x3f;
     encoder.faults.flip = u32::from(input.byte() & 3);
     let whole = decoder.main_layout().len;
-    let bits = decoder.profile().format.medium() == Medium::Bits;
+    let bits = decoder.profile().medium() == Medium::Bits;
     let mut now = 0;
     while !input.is_empty() {
         now += u64::from(input.word()) * 100;

@@ -139,7 +139,7 @@ impl Line {
     }
 
     fn is_stream(&self) -> bool {
-        self.profile().format.spec().link == Link::Stream
+        self.profile().link() == Link::Stream
     }
 
     fn longest(&self) -> Micros {

@@ -103,11 +103,11 @@ fn a_biss_capture_that_ends_early_is_short_and_never_good() {
 fn bad_parameters_are_named_with_what_would_fit() {
     assert_eq!(
         profile_error(&[("format", "t48")]),
-        "format: \"t48\" is not known; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree"
+        "format: \"t48\" is not known; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree own"
     );
     assert_eq!(
         profile_error(&[]),
-        "format: is missing; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree"
+        "format: is missing; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree own"
     );
     assert_eq!(
         profile_error(&[("format", "t485"), ("angle-bits", "40")]),

@@ -152,7 +152,7 @@ fn an_echo_and_five_percent_noise_hide_nothing() {
             ..Faults::default()
         };
         expect_found(parameters, Shaft::turning(3.7, 1.3), noise);
-        if decoder(parameters).profile().format.spec().link == Link::Polled {
+        if decoder(parameters).profile().link() == Link::Polled {
             let echo = Faults {
                 echo: true,
                 ..Faults::default()

@@ -86,7 +86,10 @@ fn unguarded(layout: &Resolved) -> Option<&'static [&'static str]> {
         Format::SsiTree if profile.parity != Parity::None || layout.shape.repeats > 0 => {
             Some(&["idle", "tail"])
         }
-        Format::Ssi | Format::SsiTree | Format::Asi4 => None,
+        Format::Own if layout.fields().any(|field| field.row.role == Role::Crc) => {
+            Some(&["idle", "cds", "tail"])
+        }
+        Format::Ssi | Format::SsiTree | Format::Asi4 | Format::Own => None,
     }
 }
 
@@ -361,7 +364,8 @@ fn what_carries_no_number_is_fixed_but_for_what_the_manuals_leave_open() {
             let open = match row.name {
                 "idle" | "tail" | "cds" | "marker" | "unknown" => true,
                 "trailing" => gray,
-                _ => false,
+                // What a user's layout skips.
+                _ => layout.shape.own.is_some() && row.constant.is_none(),
             };
             match row.role {
                 Role::Framing => assert_eq!(row.constant.is_none(), open, "{name} {}", row.name),

@@ -2,7 +2,7 @@
 
 use encoderscope::{
     decode::Decoder,
-    format::{Format, Medium, asi4, bus, rs485, ssi_tree, t485},
+    format::{Format, Medium, asi4, bus, own::SHIPPED, rs485, ssi_tree, t485},
     layout::{Resolved, Shape},
     profile::{Choice, Dialect, Marker, Parity},
 };
@@ -18,7 +18,7 @@ pub(crate) struct Case {
 impl Case {
     /// Whether its frames are bytes, which a sieve judges.
     pub(crate) fn is_bytes(&self) -> bool {
-        self.layout.shape.format.medium() == Medium::Bytes
+        self.layout.shape.medium() == Medium::Bytes
     }
 }
 
@@ -26,7 +26,7 @@ impl Case {
 pub(crate) fn layouts() -> &'static [Case] {
     static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         let mut cases = Cases::default();
-        for format in Format::ALL {
+        for format in Format::ALL.iter().chain(&[Format::Own]) {
             match format {
                 Format::Ssi => cases.ssi(),
                 Format::BissC => cases.biss_c(),
@@ -38,6 +38,7 @@ pub(crate) fn layouts() -> &'static [Case] {
                 Format::Asi4 => cases.asi4(),
                 Format::Ssi7 => cases.ssi7(),
                 Format::SsiTree => cases.ssi_tree(),
+                Format::Own => cases.own(),
             }
         }
         cases.0
@@ -185,6 +186,12 @@ impl Cases {
                 let line = format!("{}\r\n", &"12345"[..digits]);
                 self.of(&name, &decoder, line.as_bytes());
             }
+        }
+    }
+
+    fn own(&mut self) {
+        for shipped in SHIPPED {
+            self.main(format!("format=own layout={}", shipped.name));
         }
     }
 

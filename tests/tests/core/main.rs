@@ -19,6 +19,7 @@ mod laws_formats;
 mod laws_profiles;
 mod laws_ssi;
 mod layouts;
+mod own;
 mod rivals;
 mod sequences;
 mod sessions;

@@ -93,7 +93,7 @@ pub fn formats() -> Result<JsValue, JsError> {
 #[wasm_bindgen]
 pub fn decode(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
     let decoder = decoder(profile)?;
-    let dump = dump::parse(text, decoder.profile().format.medium());
+    let dump = dump::parse(text, decoder.profile().medium());
     let mut frames: Vec<Value> = Vec::new();
     let mut skips: Vec<Value> = Vec::new();
     let summary = decoder.dump(&dump, &mut |decoded| match decoded {
@@ -134,7 +134,7 @@ pub fn detect(text: &str) -> Result<JsValue, JsError> {
 #[wasm_bindgen]
 pub fn explain(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
     let decoder = decoder(profile)?;
-    let medium = decoder.profile().format.medium();
+    let medium = decoder.profile().medium();
     let dump = dump::parse(text, medium);
     let bytes = dump.bytes();
     let bits = match dump.lines.first() {

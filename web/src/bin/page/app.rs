@@ -125,7 +125,7 @@ impl App {
     /// as more than comes over a serial line.
     pub(crate) fn readable(&self) -> Profile {
         let profile = self.profile.get_untracked();
-        if !profile.format.is_serial() {
+        if !profile.is_serial() {
             Format::T485.default_profile()
         } else if profile.command.changes_encoder() {
             Profile {
@@ -310,8 +310,8 @@ pub(crate) fn summary(profile: &Profile) -> impl IntoView + use<> {
     if profile.turns_bits > 0 {
         text += &format!(" + {} turns", profile.turns_bits);
     }
-    if profile.format.is_serial() {
+    if profile.is_serial() {
         text += &format!(" · {} Mbaud", f64::from(profile.baud) / 1e6);
     }
-    view! { <b>{profile.format.title()}</b> " " {text} }
+    view! { <b>{profile.title()}</b> " " {text} }
 }

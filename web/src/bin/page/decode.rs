@@ -106,14 +106,14 @@ fn plural(count: usize, what: &str) -> String {
 
 fn parse(profile: &Profile, text: &str) -> Option<(Decoder, Dump)> {
     let decoder = Decoder::new(*profile).ok()?;
-    Some((decoder, dump::parse(text, profile.format.medium())))
+    Some((decoder, dump::parse(text, profile.medium())))
 }
 
 fn table(profile: &Profile, text: &str) -> Table {
     let Some((decoder, dump)) = parse(profile, text) else {
         return Table::default();
     };
-    let unit = match profile.format.medium() {
+    let unit = match profile.medium() {
         Medium::Bits => "bits",
         Medium::Bytes | Medium::Text => "bytes",
     };
@@ -144,7 +144,7 @@ fn table(profile: &Profile, text: &str) -> Table {
 /// Explains the frame of an index.
 fn explained(profile: &Profile, text: &str, index: usize) -> Option<Explained> {
     let (decoder, dump) = parse(profile, text)?;
-    let bytes = profile.format.medium() != Medium::Bits;
+    let bytes = profile.medium() != Medium::Bits;
     let mut at = 0;
     let mut found = None;
     decoder.dump(&dump, &mut |decoded| {
@@ -178,6 +178,7 @@ const fn example(format: Format) -> &'static str {
         Format::Asi4 => "8190\n8191\n8192\n",
         Format::Ssi7 => "000000000000000000000000000110\n000000000000001000000000000011\n",
         Format::SsiTree => "1010010100101001000100011\n0110001111111011110001000\n",
+        Format::Own => "",
     }
 }
 
@@ -260,7 +261,7 @@ pub(crate) fn Decode() -> impl IntoView {
 
 /// A profile in a line.
 fn describe(profile: &Profile) -> String {
-    let mut text = format!("{}, {} bit", profile.format.title(), profile.angle_bits);
+    let mut text = format!("{}, {} bit", profile.title(), profile.angle_bits);
     if profile.turns_bits > 0 {
         text += &format!(", {} bit turns", profile.turns_bits);
     }

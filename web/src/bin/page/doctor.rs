@@ -83,7 +83,7 @@ fn ladder(app: App) -> Vec<Rung> {
         Source::Port => baud_text(app, &profile),
         _ => (Tone::Good, "the built-in encoder".into()),
     };
-    let talks = profile.format.spec().link == Way::Stream;
+    let talks = profile.link() == Way::Stream;
     let rungs = [
         ("port", "Port open", baud.1),
         (

@@ -20,7 +20,7 @@ use leptos::prelude::*;
 pub(crate) fn LinkPanel() -> impl IntoView {
     let app = expect_context::<App>();
     let open = Memo::new(move |_| app.snapshot.get().link.is_open());
-    let polled = move || app.profile.get().format.spec().link == Way::Polled;
+    let polled = move || app.profile.get().link() == Way::Polled;
     let title = move || match app.source.get() {
         Source::Port => {
             app.ports.track();

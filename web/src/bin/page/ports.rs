@@ -185,7 +185,7 @@ impl App {
         self.source.set(Source::Port);
         let profile = self.profile.get_untracked();
         // At another rate an encoder may hear a command where a request was sent.
-        let polled = profile.format.spec().link == Way::Polled;
+        let polled = profile.link() == Way::Polled;
         if let (Made::Not(nearest), true, false) = (
             serial::made(port, profile.baud),
             polled,

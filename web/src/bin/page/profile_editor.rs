@@ -86,10 +86,10 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
             return fault.set(None);
         }
         match Profile::parse([("model", text.trim())]) {
-            Ok(new) if offer == Offer::Serial && !new.format.is_serial() => {
+            Ok(new) if offer == Offer::Serial && !new.is_serial() => {
                 fault.set(Some(format!(
                     "{} is clocked, which a USB adapter cannot: decode a pasted dump instead",
-                    new.format.title()
+                    new.title()
                 )));
             }
             Ok(new) => {
@@ -101,7 +101,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
     };
     let formats = Format::ALL
         .iter()
-        .filter(move |format| offer == Offer::All || format.is_serial());
+        .filter(move |format| offer == Offer::All || format.default_profile().is_serial());
     let format = Memo::new(move |_| app.profile.get().format);
     let shown = move |rare: bool| {
         let format = format.get();
