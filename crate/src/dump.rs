@@ -252,8 +252,21 @@ impl Dump {
         self.stop(index).byte
     }
 
+    /// Whether any line has a time.
+    #[must_use]
+    pub const fn has_times(&self) -> bool {
+        !self.times.is_empty()
+    }
+
+    /// When a line came, in seconds.
+    pub(crate) fn time_of(&self, index: usize) -> Option<f64> {
+        let time = self.times.get(index).copied();
+        time.filter(|time| *time != NO_TIME)
+    }
+
     /// Whether any line is marked as sent or received.
-    pub(crate) const fn has_directions(&self) -> bool {
+    #[must_use]
+    pub const fn has_directions(&self) -> bool {
         !self.directions.is_empty()
     }
 
@@ -272,11 +285,7 @@ impl Dump {
             bits: Bits::of_bytes(rest).prefix(self.lens[index] as usize),
             binary: self.binary,
             start: if self.binary { at.bits } else { at.byte },
-            time: self
-                .times
-                .get(index)
-                .copied()
-                .filter(|time| *time != NO_TIME),
+            time: self.time_of(index),
             direction: self.directions.get(index).copied().flatten(),
         }
     }

@@ -7,7 +7,7 @@
 //! - [`decode`]: a [`decode::Frame`] is bits and the layout that reads them;
 //! - [`reading`]: what the shaft does, from good frames only;
 //! - [`explain`]: what the bits say, from any frame;
-//! - [`detect`]: what a dump may be, ranked by evidence;
+//! - [`detect`]: what a dump may be, ranked by evidence; [`sheet`]: a decoded dump as a table;
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
 //!   [`finder`]: which encoder is on the line; [`doctor`]: how the link is; [`emulator`]: the
 //!   encoder's side of it all;
@@ -45,4 +45,5 @@ pub mod reading;
 pub mod record;
 pub mod sequence;
 pub mod session;
+pub mod sheet;
 pub mod standstill;

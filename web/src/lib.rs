@@ -4,6 +4,7 @@
 //! Leptos in it and serves the worker and the JavaScript module.
 
 pub mod browser;
+pub mod desk;
 pub mod engine;
 pub mod link;
 pub mod message;

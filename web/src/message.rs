@@ -3,8 +3,13 @@
 //! The engine lives in a dedicated worker, or on the page where the browser has no serial in
 //! workers; either way these are the messages.
 
+mod desk;
 mod search;
 
+pub use desk::{
+    CandidateView, Count, Explained, FieldView, FileKind, FromDesk, Marked, Overview, RowState,
+    RowView, Selection, ToDesk, TraceView,
+};
 pub use search::{Found, Search, SearchStage, Trial};
 
 use crate::plot::{Plot, PlotRequest, Rest};

@@ -120,6 +120,19 @@ impl Pass {
         self.summary
     }
 
+    /// Reads one line of a bit format, in the shape that was chosen over all of them.
+    pub(crate) fn line<'a>(&self, decoder: &'a Decoder, bits: Bits<'a>) -> Result<Frame<'a>, Why> {
+        decoder.line_of(bits, self.shape.unwrap_or(0))
+    }
+
+    /// The decoder of the replies to a request.
+    pub(crate) fn answering<'d>(&'d self, decoder: &'d Decoder, request: &[u8]) -> &'d Decoder {
+        let asked = request.last().and_then(|byte| Command::of_byte(*byte));
+        let mut others = self.others.iter();
+        let answers = others.find(|other| Some(other.profile().command) == asked);
+        answers.unwrap_or(decoder)
+    }
+
     fn stream(
         &mut self,
         decoder: &Decoder,

@@ -12,8 +12,9 @@ use encoderscope::{
 };
 use encoderscope_web::{
     browser::property,
+    desk::Desk,
     engine::Engine,
-    message::{FromEngine, ToEngine},
+    message::{FromDesk, FromEngine, ToDesk, ToEngine},
     serial,
 };
 use js_sys::{Array, Object};
@@ -222,4 +223,29 @@ pub fn serve() -> Result<(), JsError> {
     scope.set_onmessage(Some(listen.as_ref().unchecked_ref()));
     listen.forget();
     Ok(())
+}
+
+/// Decodes dumps for the page from a dedicated worker.
+#[wasm_bindgen(js_name = serveDesk)]
+pub fn serve_desk() {
+    let scope: DedicatedWorkerGlobalScope = js_sys::global().unchecked_into();
+    let out = scope.clone();
+    let post = move |message: FromDesk, file: Option<JsValue>| {
+        if let Ok(message) = serde_wasm_bindgen::to_value(&message) {
+            let both = Array::of2(&message, &file.unwrap_or_default());
+            // The page is gone when this fails.
+            let _ = out.post_message(&both);
+        }
+    };
+    post(FromDesk::Ready, None);
+    let desk = Desk::new(post);
+    let listen = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
+        let both: Array = event.data().unchecked_into();
+        if let Ok(message) = serde_wasm_bindgen::from_value::<ToDesk>(both.get(0)) {
+            let file = Some(both.get(1)).filter(|file| file.is_object());
+            desk.handle(message, file);
+        }
+    });
+    scope.set_onmessage(Some(listen.as_ref().unchecked_ref()));
+    listen.forget();
 }

@@ -1,0 +1,498 @@
+//! Decodes dumps in a worker of its own: reads the input piece by piece, keeps the sheet of rows,
+//! and answers what the page asks of it.
+//!
+//! Nothing here takes longer than a few hundredths of a second at a time, so that the page can ask
+//! for rows, or for something else altogether, while a large file is still being read.
+
+mod export;
+mod judge;
+mod reading;
+mod rows;
+mod share;
+mod source;
+
+use crate::{
+    link,
+    message::{
+        Count, Explained, FromDesk, Marked, Overview, RowView, Selection, ToDesk, TraceView,
+    },
+};
+use encoderscope::{
+    decode::Decoder,
+    dump::{Dump, Marks, Reader},
+    profile::Profile,
+    sheet::{Filter, Order, Quantity, Sheet, Show, Tally},
+};
+use judge::Judge;
+use reading::Captured;
+use share::Load;
+use source::Source;
+use std::{cell::RefCell, rc::Rc};
+use wasm_bindgen::{JsCast, JsValue};
+use web_sys::Blob;
+
+/// Text that the page shows in a box to type in, in bytes.
+const TYPED: usize = 400_000;
+/// Marks that the page gets.
+const MOST_MARKS: usize = 4_000;
+/// Rows at the front of a report, and faulty ones behind them.
+const REPORTED: usize = 4;
+
+/// What has been read of the input.
+#[derive(Debug, Default)]
+enum Paper {
+    #[default]
+    None,
+    /// Text that is still coming.
+    Coming(Reader),
+    /// All of it.
+    Whole(Dump),
+}
+
+impl Paper {
+    fn dump(&self) -> Option<&Dump> {
+        match self {
+            Self::None => None,
+            Self::Coming(reader) => Some(reader.dump()),
+            Self::Whole(dump) => Some(dump),
+        }
+    }
+}
+
+/// What the desk knows of its input.
+struct State {
+    post: Rc<dyn Fn(FromDesk, Option<JsValue>)>,
+    /// Counts inputs and profiles: work for an earlier one ends.
+    job: u32,
+    source: Option<Source>,
+    /// What the source is called.
+    name: String,
+    profile: Option<Profile>,
+    /// Where the data begins in the source.
+    origin: usize,
+    /// Whether the source is no text.
+    binary: bool,
+    /// Bytes of the source that have been read.
+    read: f64,
+    done: bool,
+    paper: Paper,
+    sheet: Option<Sheet>,
+    captured: Captured,
+    judge: Judge,
+    shown: (Filter, Option<Order>),
+    /// When the page was last told how far it is, in milliseconds.
+    told: f64,
+}
+
+/// The desk; clones share one.
+#[derive(Clone)]
+pub struct Desk {
+    state: Rc<RefCell<State>>,
+}
+
+impl std::fmt::Debug for Desk {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Desk")
+    }
+}
+
+impl Desk {
+    /// A desk that says what it has to say through `post`, with a file beside it where there is
+    /// one.
+    #[must_use]
+    pub fn new(post: impl Fn(FromDesk, Option<JsValue>) + 'static) -> Self {
+        Self {
+            state: Rc::new(RefCell::new(State {
+                post: Rc::new(post),
+                job: 0,
+                source: None,
+                name: String::new(),
+                profile: None,
+                origin: 0,
+                binary: false,
+                read: 0.0,
+                done: true,
+                paper: Paper::None,
+                sheet: None,
+                captured: Captured::default(),
+                judge: Judge::default(),
+                shown: (Filter::default(), None),
+                told: 0.0,
+            })),
+        }
+    }
+
+    /// Does what the page asks for.
+    pub fn handle(&self, message: ToDesk, file: Option<JsValue>) {
+        match message {
+            ToDesk::Text { text, profile } => {
+                let bytes: Rc<[u8]> = text.into_bytes().into();
+                self.open(Source::Memory(bytes), String::new(), &profile);
+            }
+            ToDesk::File { name, profile } => {
+                let blob = file.and_then(|file| file.dyn_into::<Blob>().ok());
+                match blob {
+                    Some(blob) => self.open(Source::File(blob), name, &profile),
+                    None => self.post(FromDesk::Refused("There is no file to read.".into())),
+                }
+            }
+            ToDesk::Link { payload, profile } => self.open_link(payload, profile),
+            ToDesk::Profile(profile) => self.change_profile(&profile),
+            ToDesk::Change(index) => self.change_input(index),
+            ToDesk::Cancel => self.cancel(),
+            ToDesk::Show(shown) => self.show(&shown),
+            ToDesk::Rows { first, count } => self.send_rows(first, count),
+            ToDesk::Explain(index) => self.explain(index),
+            ToDesk::Seek(seconds) => self.find(|sheet, dump| sheet.row_at(dump, seconds)),
+            ToDesk::NextFault(from) => self.find(|sheet, _| sheet.next_fault(from)),
+            ToDesk::Trace { from, to, columns } => self.trace(from, to, columns),
+            ToDesk::Export(kind) => self.export(kind),
+            ToDesk::Share => self.share(),
+            ToDesk::Report => self.report(),
+        }
+    }
+
+    fn post(&self, message: FromDesk) {
+        self.post_with(message, None);
+    }
+
+    fn post_with(&self, message: FromDesk, file: Option<JsValue>) {
+        let post = self.state.borrow().post.clone();
+        post(message, file);
+    }
+
+    /// Begins with new input.
+    fn open(&self, source: Source, name: String, profile: &str) {
+        if let Some(refusal) = source.refusal() {
+            return self.post(FromDesk::Refused(refusal));
+        }
+        {
+            let mut state = self.state.borrow_mut();
+            state.source = Some(source);
+            state.name = name;
+            state.origin = 0;
+            state.judge = Judge::default();
+            state.shown = (Filter::default(), None);
+            state.profile = link::profile(profile).ok();
+        }
+        self.begin();
+    }
+
+    fn open_link(&self, payload: String, profile: String) {
+        let desk = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            match share::unpack(&payload).await {
+                Ok(Load::Text(text)) => {
+                    desk.post(FromDesk::Opened {
+                        text: (text.len() <= TYPED).then(|| text.clone()),
+                        profile: None,
+                    });
+                    let bytes: Rc<[u8]> = text.into_bytes().into();
+                    desk.open(Source::Memory(bytes), String::new(), &profile);
+                }
+                Ok(Load::Bytes(bytes)) => {
+                    let bytes: Rc<[u8]> = bytes.into();
+                    desk.open(Source::Memory(bytes), "bytes from a link".into(), &profile);
+                }
+                Err(why) => desk.post(FromDesk::Refused(why)),
+            }
+        });
+    }
+
+    /// Decodes the same input otherwise.
+    fn change_profile(&self, profile: &str) {
+        let Ok(profile) = link::profile(profile) else {
+            return;
+        };
+        if self.state.borrow().profile == Some(profile) {
+            return;
+        }
+        self.state.borrow_mut().profile = Some(profile);
+        self.begin();
+    }
+
+    /// Stops reading; what there is stays.
+    fn cancel(&self) {
+        let mut state = self.state.borrow_mut();
+        state.job += 1;
+        if let Paper::Coming(reader) = std::mem::take(&mut state.paper) {
+            state.paper = Paper::Whole(reader.finish());
+        }
+        state.finish();
+        drop(state);
+        self.tell(true);
+    }
+
+    /// Whether the work of a job is still wanted.
+    fn wants(&self, job: u32) -> bool {
+        self.state.borrow().job == job
+    }
+
+    fn show(&self, shown: &Selection) {
+        let show = Show::ALL.into_iter().find(|show| show.name() == shown.show);
+        let range = shown.range.as_ref().and_then(|(name, low, high)| {
+            Quantity::parse(name).map(|quantity| (quantity, *low, *high))
+        });
+        let filter = Filter {
+            show: show.unwrap_or_default(),
+            status: shown.status,
+            range,
+        };
+        let order = shown.order.as_ref().and_then(|(name, descending)| {
+            let by = Quantity::parse(name)?;
+            let descending = *descending;
+            Some(Order { by, descending })
+        });
+        {
+            let mut state = self.state.borrow_mut();
+            if state.shown == (filter, order) {
+                return;
+            }
+            state.shown = (filter, order);
+            if let Some(sheet) = &mut state.sheet {
+                sheet.show(filter, order);
+            }
+            if !state.done {
+                return;
+            }
+        }
+        let desk = self.clone();
+        let job = self.state.borrow().job;
+        wasm_bindgen_futures::spawn_local(async move { desk.arrange(job).await });
+    }
+
+    /// Looks at the rows with what there is of the sheet and the dump.
+    fn look<T>(&self, with: impl FnOnce(&Sheet, &Dump) -> T) -> Option<T> {
+        let state = self.state.borrow();
+        Some(with(state.sheet.as_ref()?, state.paper.dump()?))
+    }
+
+    fn send_rows(&self, first: usize, count: usize) {
+        let rows = self.look(|sheet, dump| {
+            let medium = sheet.decoder().profile().medium();
+            let places = first..first.saturating_add(count).min(sheet.shown());
+            let rows = places
+                .filter_map(|place| sheet.row(dump, sheet.shown_at(place)?))
+                .map(|row| rows::row_view(&row, medium));
+            rows.collect::<Vec<RowView>>()
+        });
+        let rows = rows.unwrap_or_default();
+        self.post(FromDesk::Rows { first, rows });
+    }
+
+    fn explained(&self, index: usize) -> Option<Explained> {
+        self.look(|sheet, dump| {
+            let medium = sheet.decoder().profile().medium();
+            let row = sheet.row(dump, index)?;
+            Some(rows::explained(&row, medium))
+        })
+        .flatten()
+    }
+
+    fn explain(&self, index: usize) {
+        if let Some(mut explained) = self.explained(index) {
+            explained
+                .says
+                .extend(self.state.borrow().captured.said_of(index));
+            self.post(FromDesk::Explained(Box::new(explained)));
+        }
+    }
+
+    fn find(&self, wanted: impl FnOnce(&Sheet, &Dump) -> Option<usize>) {
+        let found = self.look(|sheet, dump| {
+            let index = wanted(sheet, dump)?;
+            Some((sheet.place_of(index)?, index))
+        });
+        self.post(FromDesk::Found(found.flatten()));
+    }
+
+    fn trace(&self, from: usize, to: usize, columns: usize) {
+        let traced = self.look(|sheet, dump| {
+            let mut view = TraceView {
+                from,
+                to: to.min(sheet.len()),
+                ..TraceView::default()
+            };
+            for column in sheet.columns(dump, from, to, columns) {
+                let (low, high) = column.range.unwrap_or((f64::NAN, f64::NAN));
+                let gap = column.gaps > 0 && column.range.is_none();
+                view.rows.push(column.row as f64);
+                view.degrees.push(low);
+                if !gap && low < high {
+                    view.rows.push(column.row as f64);
+                    view.degrees.push(high);
+                }
+            }
+            view
+        });
+        self.post(FromDesk::Trace(traced.unwrap_or_default()));
+    }
+
+    /// The first rows, and the first ones of each fault.
+    fn report(&self) {
+        let indices = self.look(|sheet, _| {
+            let figures = sheet.figures();
+            let faulty = figures.faults.iter().chain(&figures.skips);
+            let mut all: Vec<usize> = (0..sheet.len().min(REPORTED)).collect();
+            all.extend(faulty.map(|tally| tally.first).take(REPORTED));
+            all.sort_unstable();
+            all.dedup();
+            all
+        });
+        let rows = indices.unwrap_or_default().into_iter();
+        let rows = rows.filter_map(|index| self.explained(index)).collect();
+        self.post(FromDesk::Report(rows));
+    }
+
+    fn share(&self) {
+        let desk = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            let packed = match desk.load().await {
+                Ok(load) => share::pack(&load).await,
+                Err(why) => Err(why),
+            };
+            desk.post(FromDesk::Shared(packed));
+        });
+    }
+
+    /// The input as a link carries it.
+    async fn load(&self) -> Result<Load, String> {
+        let (source, origin) = {
+            let state = self.state.borrow();
+            (state.source.clone(), state.origin)
+        };
+        let source = source.ok_or("There is nothing to share yet.")?;
+        let bytes = source.read(origin as f64, share::MOST + 1).await?;
+        Ok(match String::from_utf8(bytes) {
+            Ok(text) => Load::Text(text),
+            Err(error) => Load::Bytes(error.into_bytes()),
+        })
+    }
+
+    /// Tells the page how far it is, now or when it was not told for a while.
+    fn tell(&self, now: bool) {
+        const EVERY: f64 = 100.0;
+        let at = crate::browser::now() as f64 / 1000.0;
+        let overview = {
+            let mut state = self.state.borrow_mut();
+            if !now && at - state.told < EVERY {
+                return;
+            }
+            state.told = at;
+            state.overview()
+        };
+        self.post(FromDesk::Overview(Box::new(overview)));
+    }
+
+    /// Says how the text was read, in place.
+    fn tell_marks(&self) {
+        let marks = {
+            let state = self.state.borrow();
+            match (state.paper.dump(), state.name.is_empty()) {
+                (Some(dump), true) => {
+                    let mut all = marked(dump.dropped());
+                    all.extend(marked(dump.unread()).into_iter().map(|mark| Marked {
+                        kind: String::new(),
+                        ..mark
+                    }));
+                    all.sort_by_key(|mark| mark.start);
+                    all.truncate(MOST_MARKS);
+                    all
+                }
+                _ => Vec::new(),
+            }
+        };
+        self.post(FromDesk::Marks(marks));
+    }
+}
+
+fn marked(marks: &Marks) -> Vec<Marked> {
+    let places = marks.places.iter().map(|mark| Marked {
+        start: mark.at.start as usize,
+        end: mark.at.end as usize,
+        kind: mark.kind.to_string(),
+    });
+    places.collect()
+}
+
+fn counts(tallies: &[Tally]) -> Vec<Count> {
+    let count = |tally: &Tally| Count {
+        name: tally.name.clone(),
+        count: tally.count as f64,
+        first: tally.first,
+    };
+    let mut all: Vec<Count> = tallies.iter().map(count).collect();
+    all.sort_by(|one, other| other.count.total_cmp(&one.count));
+    all
+}
+
+impl State {
+    /// All of the input has been read.
+    fn finish(&mut self) {
+        if let (Some(sheet), Some(dump)) = (&mut self.sheet, self.paper.dump())
+            && !self.done
+        {
+            sheet.finish(dump);
+        }
+        self.done = true;
+    }
+
+    fn decoder(&self) -> Option<Decoder> {
+        Decoder::new(self.profile?).ok()
+    }
+
+    fn overview(&self) -> Overview {
+        let mut view = Overview {
+            source: self.name.clone(),
+            profile: self.profile.as_ref().map(link::query).unwrap_or_default(),
+            read: (self.read, self.source.as_ref().map_or(0.0, Source::len)),
+            done: self.done,
+            timing: self.captured.timing(),
+            notes: self.captured.notes.clone(),
+            ..Overview::default()
+        };
+        if let Some(dump) = self.paper.dump() {
+            view.writing = dump.writing().to_string();
+            view.lines = dump.len() as f64;
+            view.bytes = dump.bytes().len() as f64;
+            view.unread = dump.unread().total as f64;
+            view.timed = dump.has_times();
+            for mark in &dump.dropped().places {
+                let kind = mark.kind.to_string();
+                match view.dropped.iter_mut().find(|known| known.name == kind) {
+                    Some(known) => known.count += 1.0,
+                    None => view.dropped.push(Count {
+                        name: kind,
+                        count: 1.0,
+                        first: 0,
+                    }),
+                }
+            }
+        }
+        if let Some(sheet) = &self.sheet {
+            let figures = sheet.figures();
+            let full = |bits: u32, angle| encoderscope::reading::degrees(angle, bits);
+            let bits = sheet.decoder().profile().angle_bits;
+            let tenths = |value: i32| f64::from(value) / 10.0;
+            view.frames = figures.summary.frames as f64;
+            view.bad = figures.summary.bad as f64;
+            view.skipped = figures.summary.skipped as f64;
+            view.rows = sheet.len();
+            view.shown = sheet.shown();
+            view.lost = sheet.lost() as f64;
+            view.faults = counts(&figures.faults);
+            view.skips = counts(&figures.skips);
+            view.conditions = counts(&figures.conditions);
+            view.angle = figures
+                .angle
+                .map(|(low, high)| (full(bits, low), full(bits, high)));
+            view.turns = figures.turns.map(|(low, high)| (low as f64, high as f64));
+            view.temperature = figures
+                .temperature
+                .map(|(low, high)| (tenths(low), tenths(high)));
+            view.speed = figures.speed;
+            view.duration = figures.times.map(|(first, last)| last - first);
+        }
+        view
+    }
+}

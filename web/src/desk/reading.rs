@@ -1,0 +1,272 @@
+//! Reading the input in pieces, and decoding as far as it has come.
+
+use super::{
+    Desk, Paper,
+    source::{self, HEAD, Recoder, Source, is_binary},
+};
+use crate::{
+    browser::{now, pause},
+    link,
+    message::{Count, FromDesk},
+};
+use encoderscope::{
+    dump::{Dump, Reader},
+    format::Medium,
+    sheet::Sheet,
+};
+
+/// Bytes of data that are decoded in one go.
+const BUDGET: usize = 128 << 10;
+/// Rows that are looked at in one go.
+const ROWS: usize = 50_000;
+/// Microseconds of work before others get their turn.
+const SLICE: u64 = 20_000;
+
+/// What was found out about a capture of a logic analyser.
+#[derive(Debug, Default)]
+pub(super) struct Captured {
+    /// Which wires there are, and what else is to be said.
+    pub(super) notes: Vec<String>,
+    /// What is wrong with the timing of each frame.
+    violations: Vec<Vec<String>>,
+}
+
+impl Captured {
+    /// What is wrong with the timing, by kind.
+    pub(super) fn timing(&self) -> Vec<Count> {
+        let mut all: Vec<Count> = Vec::new();
+        for (index, said) in self.violations.iter().enumerate() {
+            for text in said {
+                match all.iter_mut().find(|known| known.name == *text) {
+                    Some(known) => known.count += 1.0,
+                    None => all.push(Count {
+                        name: text.clone(),
+                        count: 1.0,
+                        first: index,
+                    }),
+                }
+            }
+        }
+        all
+    }
+
+    /// What is wrong with the timing of a frame.
+    pub(super) fn said_of(&self, index: usize) -> Vec<String> {
+        self.violations.get(index).cloned().unwrap_or_default()
+    }
+}
+
+/// Gives others their turn when work has taken long enough.
+struct Turn {
+    since: u64,
+}
+
+impl Turn {
+    fn new() -> Self {
+        Self { since: now() }
+    }
+
+    async fn over(&mut self) {
+        if now().saturating_sub(self.since) > SLICE {
+            pause(0.0).await;
+            self.since = now();
+        }
+    }
+}
+
+impl Desk {
+    /// Begins to read and decode the source with the profile.
+    pub(super) fn begin(&self) {
+        let job = {
+            let mut state = self.state.borrow_mut();
+            state.job += 1;
+            state.done = false;
+            state.sheet = state.decoder().map(Sheet::new);
+            let (filter, order) = state.shown;
+            if let Some(sheet) = &mut state.sheet {
+                sheet.show(filter, order);
+            }
+            state.job
+        };
+        let desk = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            if let Err(why) = desk.read(job).await
+                && desk.wants(job)
+            {
+                desk.cancel();
+                desk.post(FromDesk::Refused(why));
+            }
+        });
+    }
+
+    async fn read(&self, job: u32) -> Result<(), String> {
+        let source = self.state.borrow().source.clone();
+        let Some(source) = source else {
+            return Ok(());
+        };
+        self.state.borrow_mut().captured = Captured::default();
+        let head = source.read(0.0, HEAD).await?;
+        if !self.wants(job) {
+            return Ok(());
+        }
+        let head = self.title(head);
+        let mut recoder = Recoder::new(&head);
+        let binary = !recoder.is_needed() && is_binary(&head);
+        self.state.borrow_mut().binary = binary;
+        match binary {
+            true => self.read_bytes(job, &source).await?,
+            false => {
+                let start = recoder_head(&head);
+                self.read_text(job, &source, &start, &mut recoder).await?;
+            }
+        }
+        if !self.wants(job) {
+            return Ok(());
+        }
+        self.state.borrow_mut().finish();
+        self.tell(true);
+        self.tell_marks();
+        self.arrange(job).await;
+        if self.wants(job) {
+            self.judge(job).await;
+        }
+        Ok(())
+    }
+
+    /// Takes the title of a recording off its head.
+    fn title(&self, mut head: Vec<u8>) -> Vec<u8> {
+        let mut state = self.state.borrow_mut();
+        let Some((profile, origin)) = source::profile_of(&head) else {
+            return head;
+        };
+        let first = state.origin == 0;
+        state.origin = origin;
+        if first && let Ok(known) = link::profile(&profile) {
+            state.profile = Some(known);
+            state.sheet = state.decoder().map(Sheet::new);
+            let post = state.post.clone();
+            drop(state);
+            post(
+                FromDesk::Opened {
+                    text: None,
+                    profile: Some(profile),
+                },
+                None,
+            );
+        }
+        head.split_off(origin)
+    }
+
+    async fn read_text(
+        &self,
+        job: u32,
+        source: &Source,
+        head: &str,
+        recoder: &mut Recoder,
+    ) -> Result<(), String> {
+        let mut at = {
+            let mut state = self.state.borrow_mut();
+            let medium = state.profile.map(|profile| profile.medium());
+            state.paper = Paper::Coming(Reader::new(medium.unwrap_or(Medium::Bytes), head));
+            state.origin as f64
+        };
+        let mut turn = Turn::new();
+        loop {
+            let piece = source.piece(at).await?;
+            if !self.wants(job) {
+                return Ok(());
+            }
+            let last = piece.is_empty();
+            at += piece.len() as f64;
+            {
+                let mut state = self.state.borrow_mut();
+                state.read = at;
+                if let Paper::Coming(reader) = &mut state.paper {
+                    reader.push(&recoder.recode(piece));
+                }
+                if last && let Paper::Coming(reader) = std::mem::take(&mut state.paper) {
+                    state.paper = Paper::Whole(reader.finish());
+                }
+            }
+            if !self.decode(job, &mut turn).await || last {
+                return Ok(());
+            }
+        }
+    }
+
+    async fn read_bytes(&self, job: u32, source: &Source) -> Result<(), String> {
+        let mut bytes = Vec::new();
+        let mut turn = Turn::new();
+        loop {
+            let piece = source.piece(bytes.len() as f64).await?;
+            if !self.wants(job) {
+                return Ok(());
+            }
+            if piece.is_empty() {
+                break;
+            }
+            bytes.extend(piece);
+            self.state.borrow_mut().read = bytes.len() as f64;
+            self.tell(false);
+            turn.over().await;
+        }
+        self.state.borrow_mut().paper = Paper::Whole(Dump::of_bytes(bytes));
+        self.decode(job, &mut turn).await;
+        Ok(())
+    }
+
+    /// Decodes what there is; whether the job is still wanted.
+    async fn decode(&self, job: u32, turn: &mut Turn) -> bool {
+        loop {
+            let more = {
+                let mut state = self.state.borrow_mut();
+                let super::State { sheet, paper, .. } = &mut *state;
+                match (sheet, paper.dump()) {
+                    (Some(sheet), Some(dump)) => {
+                        let more = sheet.step(dump, BUDGET);
+                        sheet.arrange(dump, ROWS);
+                        more
+                    }
+                    _ => false,
+                }
+            };
+            self.tell(false);
+            turn.over().await;
+            if !self.wants(job) {
+                return false;
+            }
+            if !more {
+                return true;
+            }
+        }
+    }
+
+    /// Chooses and sorts the rows that are shown.
+    pub(super) async fn arrange(&self, job: u32) {
+        let mut turn = Turn::new();
+        loop {
+            let more = {
+                let mut state = self.state.borrow_mut();
+                let super::State { sheet, paper, .. } = &mut *state;
+                match (sheet, paper.dump()) {
+                    (Some(sheet), Some(dump)) => sheet.arrange(dump, ROWS),
+                    _ => false,
+                }
+            };
+            self.tell(!more);
+            if !more {
+                return;
+            }
+            turn.over().await;
+            if !self.wants(job) {
+                return;
+            }
+        }
+    }
+}
+
+/// The head of a text as letters.
+fn recoder_head(head: &[u8]) -> String {
+    let recoded = Recoder::new(head).recode(head.into());
+    String::from_utf8_lossy(&recoded).into_owned()
+}
