@@ -3,7 +3,7 @@
 use super::{
     plan::{Check, Choice, Kind, Piece, Plan, Problem, Reach, Reading, Reply, Source},
     plan::{function, hex, pieces},
-    text::{folded, indented, joined, lines, sentence, upper, wrapped},
+    text::{closes_last, folded, indented, joined, lines, sentence, upper, wrapped},
 };
 use crate::{
     bits::{self, Span},
@@ -491,6 +491,10 @@ fn shaped(kind: Kind, text: &str, word: u32) -> String {
             let wide = if width < 32 { 32 } else { 64 };
             cast(kind, &format!("(int{wide}_t)({text} ^ {sign}) - {sign}"))
         }
+        _ if plain && closes_last(text) => {
+            let inner = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
+            inner.unwrap_or(text).into()
+        }
         _ if plain => text.into(),
         _ => cast(kind, text),
     }
@@ -503,22 +507,6 @@ fn cast(kind: Kind, text: &str) -> String {
         true => format!("({}){text}", integer(kind)),
         false => format!("({})({text})", integer(kind)),
     }
-}
-
-/// Whether the first parenthesis is closed by the last character.
-fn closes_last(text: &str) -> bool {
-    let mut open = 0i32;
-    for (at, letter) in text.char_indices() {
-        open += match letter {
-            '(' => 1,
-            ')' => -1,
-            _ => 0,
-        };
-        if open == 0 && letter == ')' {
-            return at + 1 == text.len();
-        }
-    }
-    false
 }
 
 /// A line of decimal digits.

@@ -11,7 +11,7 @@ use crate::{
 };
 use alloc::{
     format,
-    string::{String, ToString},
+    string::String,
     vec::Vec,
 };
 

@@ -99,3 +99,19 @@ pub(super) fn pascal(name: &str) -> String {
     }
     out
 }
+
+/// Whether the first parenthesis is closed by the last character.
+pub(super) fn closes_last(text: &str) -> bool {
+    let mut open = 0i32;
+    for (at, letter) in text.char_indices() {
+        open += match letter {
+            '(' => 1,
+            ')' => -1,
+            _ => 0,
+        };
+        if open == 0 && letter == ')' {
+            return at + 1 == text.len();
+        }
+    }
+    false
+}
