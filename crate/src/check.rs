@@ -3,16 +3,26 @@
 //! All of them start from 0, so leading zero bits do not change them: a bit string of any
 //! length is right-aligned into bytes first.
 
-use crate::bits::{Bits, Span};
-use alloc::{format, string::String};
+mod algorithm;
+
+pub use algorithm::Algorithm;
+
+use crate::bits::{self, Bits, Span};
+use alloc::{
+    boxed::Box,
+    string::{String, ToString},
+};
 use core::fmt;
-use crc::{Algorithm, Crc, NoTable};
+use crc::{Crc, NoTable};
 
 /// The longest checked run in bytes that does not consist of whole bytes: that of the longest
 /// layout a user may write.
 const LONGEST: usize = 32;
 
-static CRC8_97: Crc<u8> = Crc::<u8>::new(&Algorithm {
+static CRC8_97: Crc<u8> = Crc::<u8>::new(&X97);
+
+/// x⁸+x⁷+x⁴+x²+x+1.
+const X97: crc::Algorithm<u8> = crc::Algorithm {
     width: 8,
     poly: 0x97,
     init: 0,
@@ -21,9 +31,12 @@ static CRC8_97: Crc<u8> = Crc::<u8>::new(&Algorithm {
     xorout: 0,
     check: 0x94,
     residue: 0,
-});
+};
 
-static CRC8_XOR: Crc<u8> = Crc::<u8>::new(&Algorithm {
+static CRC8_XOR: Crc<u8> = Crc::<u8>::new(&XOR);
+
+/// x⁸+1.
+const XOR: crc::Algorithm<u8> = crc::Algorithm {
     width: 8,
     poly: 0x01,
     init: 0,
@@ -32,9 +45,12 @@ static CRC8_XOR: Crc<u8> = Crc::<u8>::new(&Algorithm {
     xorout: 0,
     check: 0x31,
     residue: 0,
-});
+};
 
-static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&Algorithm {
+static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&BISS);
+
+/// x⁶+x+1, inverted.
+const BISS: crc::Algorithm<u8> = crc::Algorithm {
     width: 6,
     poly: 0x03,
     init: 0,
@@ -43,18 +59,9 @@ static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&Algorithm {
     xorout: 0x3f,
     check: 0x2e,
     residue: 0,
-});
+};
 
-static CRC16_8005: Crc<u16> = Crc::<u16>::new(&Algorithm {
-    width: 16,
-    poly: 0x8005,
-    init: 0,
-    refin: false,
-    refout: false,
-    xorout: 0,
-    check: 0xfee8,
-    residue: 0,
-});
+static CRC16_8005: Crc<u16> = Crc::<u16>::new(&crc::CRC_16_UMTS);
 
 /// How a check field is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +94,11 @@ impl Checksum {
     /// ```
     #[must_use]
     pub fn compute(self, bits: Bits<'_>, over: Span) -> u64 {
-        let ones = || u64::from(bits.read(over).count_ones() % 2);
+        let ones = || {
+            let words = (over.start..over.end()).step_by(64);
+            let word = |at: usize| bits.read(Span::new(at, 64.min(over.end() - at)));
+            u64::from(words.map(|at| word(at).count_ones()).sum::<u32>() % 2)
+        };
         let whole = over.start.is_multiple_of(8) && over.len.is_multiple_of(8);
         let run = bits.bytes().get(over.start / 8..over.end() / 8);
         let padded;
@@ -106,7 +117,27 @@ impl Checksum {
             Self::Crc16x8005 => CRC16_8005.checksum(bytes).into(),
             Self::EvenParity => ones(),
             Self::OddParity => 1 - ones(),
-            Self::Own(own) => own.crc.checksum(bytes),
+            Self::Own(own) => own.crc.checksum(bytes).into(),
+        }
+    }
+
+    /// The parameters of the CRC; a parity has none.
+    ///
+    /// ```
+    /// use encoderscope::check::Checksum;
+    /// let crc = Checksum::Crc6Biss.algorithm().unwrap();
+    /// assert_eq!((crc.width, crc.polynomial, crc.xorout), (6, 0x03, 0x3f));
+    /// assert!(Checksum::EvenParity.algorithm().is_none());
+    /// ```
+    #[must_use]
+    pub const fn algorithm(self) -> Option<Algorithm> {
+        match self {
+            Self::Crc8x97 => Some(Algorithm::of_u8(&X97)),
+            Self::Crc8Xor => Some(Algorithm::of_u8(&XOR)),
+            Self::Crc6Biss => Some(Algorithm::of_u8(&BISS)),
+            Self::Crc16x8005 => Some(Algorithm::of_u16(&crc::CRC_16_UMTS)),
+            Self::Own(own) => Some(own.algorithm),
+            Self::EvenParity | Self::OddParity => None,
         }
     }
 
@@ -118,7 +149,7 @@ impl Checksum {
             Self::Crc6Biss => 6,
             Self::Crc16x8005 => 16,
             Self::EvenParity | Self::OddParity => 1,
-            Self::Own(own) => own.crc.algorithm.width as u32,
+            Self::Own(own) => own.algorithm.width,
         }
     }
 
@@ -127,7 +158,7 @@ impl Checksum {
     pub(crate) const fn ignores_zeros(self) -> bool {
         match self {
             Self::Crc8x97 => true,
-            Self::Own(own) => own.crc.algorithm.init == 0 && own.crc.algorithm.xorout == 0,
+            Self::Own(own) => own.algorithm.init == 0 && own.algorithm.xorout == 0,
             _ => false,
         }
     }
@@ -150,34 +181,36 @@ impl Checksum {
 /// A CRC whose parameters a user gave.
 pub struct OwnCrc {
     name: String,
-    crc: Crc<u64, NoTable>,
+    algorithm: Algorithm,
+    crc: Crc<u16, NoTable>,
 }
 
 impl OwnCrc {
-    /// The CRC of an algorithm.
+    /// The CRC of an algorithm, for as long as the program runs.
     #[must_use]
-    pub fn new(algorithm: &'static Algorithm<u64>) -> Self {
-        let Algorithm {
-            width,
-            poly,
-            init,
-            refin,
-            xorout,
-            ..
-        } = algorithm;
-        let order = if *refin { ", last bit first" } else { "" };
+    pub fn new(algorithm: Algorithm) -> Self {
+        let word = |value: u64| bits::low_word(value);
+        let leaked = Box::leak(Box::new(crc::Algorithm {
+            width: bits::low_byte(algorithm.width.into()),
+            poly: word(algorithm.polynomial),
+            init: word(algorithm.init),
+            refin: algorithm.refin,
+            refout: algorithm.refout,
+            xorout: word(algorithm.xorout),
+            check: 0,
+            residue: 0,
+        }));
         Self {
-            name: format!(
-                "CRC-{width}, polynomial 0x{poly:02X}, init 0x{init:X}, xor 0x{xorout:X}{order}"
-            ),
-            crc: Crc::<u64, NoTable>::new(algorithm),
+            name: algorithm.to_string(),
+            algorithm,
+            crc: Crc::<u16, NoTable>::new(leaked),
         }
     }
 }
 
 impl PartialEq for OwnCrc {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        self.algorithm == other.algorithm
     }
 }
 

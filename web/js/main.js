@@ -1,4 +1,4 @@
-// Starts the page; the engine's worker is made here because the bundler finds it only in JavaScript.
+// Starts the page; the workers are made here because the bundler finds them only in JavaScript.
 import init, { start } from '../pkg/page.js';
 import { chart } from './plot.js';
 
@@ -11,4 +11,8 @@ const dark = matchMedia('(prefers-color-scheme: dark)').matches;
 document.documentElement.dataset.theme = stored ?? (dark ? 'dark' : 'light');
 
 await init();
-start(() => new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }), { chart });
+const workers = {
+  engine: () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'engine' }),
+  desk: () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'desk' }),
+};
+start(workers, { chart });

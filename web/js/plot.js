@@ -4,7 +4,7 @@ import uPlot from 'uplot';
 const sync = uPlot.sync('plot');
 
 const tenths = [1e-5, 1e-4, 1e-3, 1e-2, 1e-1].flatMap((unit) => [unit, 2 * unit, 5 * unit]);
-const tens = [1, 1e1, 1e2, 1e3, 1e4, 1e5].flatMap((unit) => [unit, 2 * unit, 5 * unit]);
+const tens = [1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7].flatMap((unit) => [unit, 2 * unit, 5 * unit]);
 const seconds = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600, 7200, 21600, 86400];
 const degrees = [1, 2, 5, 10, 15, 30, 45, 90, 180, 360];
 
@@ -60,9 +60,9 @@ class Chart {
   #watched;
 
   /** `tell(what, a, b)` is called with `zoom`, `cursor`, `mark`, `live` and `width`. */
-  constructor(element, quantity, color, tell) {
+  constructor(element, quantity, color, over, tell) {
     this.#tell = tell;
-    this.#u = new uPlot(this.#options(element, quantity, color), [[0, 1], [null, null]], element);
+    this.#u = new uPlot(this.#options(element, quantity, color, over), [[0, 1], [null, null]], element);
     const over = this.#u.over;
     over.addEventListener('click', () => this.#tell('mark', this.#u.posToVal(this.#u.cursor.left, 'x'), 0));
     element.addEventListener('keydown', (event) => this.#key(event));
@@ -76,7 +76,17 @@ class Chart {
     this.#watched = [resized, themed];
   }
 
-  #options(element, quantity, color) {
+  #options(element, quantity, color, over) {
+    const axes = {
+      time: {
+        incrs: [...tenths, ...seconds],
+        values: (u, splits, index, space, step) => splits.map((at) => (at < 0 ? '' : clock(at, step, u.scales.x.max))),
+      },
+      rows: {
+        incrs: tens,
+        values: (u, splits) => splits.map((at) => at.toLocaleString('en').replaceAll(',', '\u202f')),
+      },
+    };
     return {
       width: Math.max(element.clientWidth, 100),
       height: Math.max(element.clientHeight, 60),
@@ -88,8 +98,7 @@ class Chart {
         axis({
           size: 26,
           space: 70,
-          incrs: [...tenths, ...seconds],
-          values: (u, splits, index, space, step) => splits.map((at) => (at < 0 ? '' : clock(at, step, u.scales.x.max))),
+          ...axes[over],
         }),
         axis({
           size: 58,
@@ -102,7 +111,7 @@ class Chart {
         y: false,
         points: { show: false },
         drag: { x: true, y: false, setScale: false },
-        sync: { key: sync.key, setSeries: false, scales: ['x', null] },
+        ...(over === 'time' && { sync: { key: sync.key, setSeries: false, scales: ['x', null] } }),
         bind: { dblclick: () => () => this.#tell('live', 0, 0) },
       },
       hooks: {
@@ -181,5 +190,5 @@ class Chart {
   }
 }
 
-/** A chart in an element; `color` is a token of the style sheet. */
-export const chart = (element, quantity, color, tell) => new Chart(element, quantity, color, tell);
+/** A chart in an element over `time` or `rows`; `color` is a token of the style sheet. */
+export const chart = (element, quantity, color, over, tell) => new Chart(element, quantity, color, over, tell);

@@ -1,5 +1,6 @@
-// The dedicated worker that owns the serial port.
-import init, { serve } from '../pkg/encoderscope.js';
+// The dedicated workers: one owns the serial port, the other decodes dumps.
+import init, { serve, serveDesk } from '../pkg/encoderscope.js';
 
 await init();
-serve();
+if (self.name === 'desk') serveDesk();
+else serve();

@@ -143,6 +143,8 @@ impl Desk {
             ToDesk::Show(shown) => self.show(&shown),
             ToDesk::Rows { first, count } => self.send_rows(first, count),
             ToDesk::Explain(index) => self.explain(index),
+            ToDesk::Place(index) => self.find(|_, _| Some(index)),
+            ToDesk::Pick(place) => self.find(|sheet, _| sheet.shown_at(place)),
             ToDesk::Seek(seconds) => self.find(|sheet, dump| sheet.row_at(dump, seconds)),
             ToDesk::NextFault(from) => self.find(|sheet, _| sheet.next_fault(from)),
             ToDesk::Trace { from, to, columns } => self.trace(from, to, columns),

@@ -21,7 +21,7 @@ pub use shipped::{SHIPPED, Shipped};
 
 use super::{Format, Limits, Link, Spec, biss_c, ssi};
 use crate::{
-    check::{Checksum, OwnCrc},
+    check::{Algorithm, Checksum, OwnCrc},
     layout::{Check, Cover, Layout, Piece, Role, Row, Shape, StatusBit, Width},
     profile::{Justify, Profile},
     sequence,
@@ -33,7 +33,6 @@ use alloc::{
     vec::Vec,
 };
 use core::fmt;
-use crc::Algorithm;
 use once_cell::race::OnceBox;
 
 /// Most bits of a frame.
@@ -414,18 +413,16 @@ fn row(field: &Draft, name: &'static str, names: &[&'static str]) -> Row {
     row
 }
 
-fn algorithm(field: &Draft) -> &'static Algorithm<u64> {
+fn algorithm(field: &Draft) -> Algorithm {
     let rule = field.crc;
-    Box::leak(Box::new(Algorithm {
-        width: field.width.min(64) as u8,
-        poly: rule.polynomial,
+    Algorithm {
+        width: field.width,
+        polynomial: rule.polynomial,
         init: rule.init,
         refin: rule.reflected,
         refout: rule.reflected,
         xorout: rule.xorout,
-        check: 0,
-        residue: 0,
-    }))
+    }
 }
 
 /// Puts rows into pieces: Gray neighbours into one word, little-endian neighbours into numbers of

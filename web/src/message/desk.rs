@@ -43,6 +43,10 @@ pub enum ToDesk {
     },
     /// Explain a row.
     Explain(usize),
+    /// Go to a row.
+    Place(usize),
+    /// Go to the row at a place among those that are shown.
+    Pick(usize),
     /// Go to the row at a time in seconds.
     Seek(f64),
     /// Go to the first row from this one on that is not as it should be.
@@ -223,6 +227,22 @@ pub struct Marked {
     pub end: usize,
     /// What it is; empty where it should be data and cannot be read.
     pub kind: String,
+}
+
+impl Marked {
+    /// Whether it should be data and cannot be read.
+    #[must_use]
+    pub const fn is_unread(&self) -> bool {
+        self.kind.is_empty()
+    }
+}
+
+impl RowView {
+    /// Whether it is a frame, good or bad.
+    #[must_use]
+    pub const fn is_frame(&self) -> bool {
+        matches!(self.state, RowState::Good | RowState::Bad)
+    }
 }
 
 /// What a row is.

@@ -19,6 +19,8 @@ use core::{fmt, str::FromStr};
 pub const MOST_FIELDS: usize = 40;
 /// Most bits of a field that holds a number.
 const WIDEST: u32 = 64;
+/// Most bits of a CRC.
+const WIDEST_CRC: u32 = 16;
 /// Most bits of a field that only frames.
 const WIDEST_FRAMING: u32 = 256;
 /// Most letters of a title, a field's name or a status bit's name.
@@ -122,7 +124,7 @@ impl Kind {
             Self::Status | Self::Count => (1, 8),
             Self::Temperature | Self::Speed => (2, 32),
             Self::Zeros | Self::Skip => (1, WIDEST_FRAMING),
-            Self::Crc => (3, WIDEST),
+            Self::Crc => (3, WIDEST_CRC),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The shell: areas, profile, theme, and the state that they share.
 
 use crate::{
-    adapters, connection::Connection, console::Console, decode::Decode, plot::Feed,
-    ports::Obstacle, theme::ThemeSwitch,
+    Workers, adapters, connection::Connection, console::Console, decode::Decode, desk::Desk,
+    plot::Feed, ports::Obstacle, theme::ThemeSwitch,
 };
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
@@ -69,8 +69,8 @@ pub(crate) struct App {
     pub(crate) any_rate: RwSignal<bool>,
     /// Why there is no port.
     pub(crate) obstacle: RwSignal<Option<Obstacle>>,
-    /// Text of the decode area.
-    pub(crate) dump: RwSignal<String>,
+    /// The decode area's end of its worker.
+    pub(crate) desk: Desk,
     /// The worker has broken down, and an engine on the page has taken over.
     broken: RwSignal<bool>,
     /// A port was plugged in a moment ago.
@@ -79,11 +79,11 @@ pub(crate) struct App {
 }
 
 impl App {
-    fn new(make_worker: &js_sys::Function) -> Self {
+    fn new(workers: Workers) -> Self {
         let snapshot = RwSignal::new(Snapshot::default());
         let feed = Feed::new();
         let broken = RwSignal::new(false);
-        let connection = Connection::new(make_worker, snapshot, feed, broken);
+        let connection = Connection::new(workers.engine().ok(), snapshot, feed, broken);
         Self {
             area: RwSignal::new(Area::Console),
             profile: RwSignal::new(Format::T485.default_profile()),
@@ -97,7 +97,7 @@ impl App {
             pace: RwSignal::new(0.0),
             any_rate: RwSignal::new(false),
             obstacle: RwSignal::new(None),
-            dump: RwSignal::new(String::new()),
+            desk: Desk::new(workers),
             broken,
             just_plugged: RwSignal::new(false),
             connection: StoredValue::new_local(connection),
@@ -197,24 +197,23 @@ impl App {
                 .set(Some(format!("The link is not right: {error}."))),
             None => {}
         }
-        if let Some(dump) = fragment.value("dump") {
-            self.dump.set(dump.into());
-        }
+        self.desk.follow_link(&fragment);
     }
 
     /// The fragment that leads back here.
     pub(crate) fn fragment(&self) -> String {
-        format!(
-            "#/{}?{}",
-            self.area.get().name(),
-            query(&self.profile.get())
-        )
+        let area = self.area.get();
+        let mut text = format!("#/{}?{}", area.name(), query(&self.profile.get()));
+        if area == Area::Decode {
+            text += &self.desk.fragment();
+        }
+        text
     }
 }
 
 /// The whole page.
-pub(crate) fn app(make_worker: &js_sys::Function) -> impl IntoView + use<> {
-    let app = App::new(make_worker);
+pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
+    let app = App::new(workers);
     provide_context(app);
     app.follow_link(&location_hash());
     Effect::new(move || app.follow_profile());

@@ -29,18 +29,14 @@ struct Inner {
 }
 
 impl Connection {
-    /// Starts the worker; snapshots go into `snapshot`, answers to the plot into `feed`.
+    /// Listens to the worker, where there is one; snapshots go into `snapshot`, answers to the plot into `feed`.
     /// A worker that breaks down is replaced by an engine on the page, and `broken` is set.
     pub(crate) fn new(
-        make_worker: &js_sys::Function,
+        worker: Option<Worker>,
         snapshot: RwSignal<Snapshot>,
         feed: Feed,
         broken: RwSignal<bool>,
     ) -> Self {
-        let worker: Option<Worker> = make_worker
-            .call0(&wasm_bindgen::JsValue::NULL)
-            .ok()
-            .and_then(|made| made.dyn_into().ok());
         let connection = Self {
             inner: Rc::new(RefCell::new(Inner {
                 worker: worker.clone(),

@@ -2,12 +2,12 @@
 
 use crate::{
     app::{App, Source},
-    frame_view::{Explained, FrameView},
+    frame_view::FrameView,
 };
 use encoderscope::{decode::Decoder, dump, format::Medium, record::hex, sequence::danger};
 use encoderscope_web::{
     link::query,
-    message::{Entry, Link, LogFilter, ToEngine},
+    message::{Entry, Explained, Link, LogFilter, ToEngine},
 };
 use leptos::prelude::*;
 
@@ -143,7 +143,7 @@ fn Inspect(entry: Entry, close: impl Fn() + Copy + 'static) -> impl IntoView {
     let decoder = Decoder::new(profile).ok().filter(|_| !entry.sent);
     let explained = decoder.and_then(|decoder| {
         let frame = decoder.frame(&bytes)?;
-        Some(Explained::new(frame.bits, true, frame.explain()))
+        Some(Explained::new(0, frame.bits, true, &frame.explain()))
     });
     let shown = match explained {
         Some(frame) => view! { <FrameView frame=frame /> }.into_any(),

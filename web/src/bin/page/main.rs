@@ -11,6 +11,7 @@ mod connection;
 mod console;
 mod decode;
 mod demo;
+mod desk;
 mod devices;
 mod dial;
 mod doctor;
@@ -33,12 +34,23 @@ use wasm_bindgen::prelude::*;
 
 fn main() {}
 
-/// Mounts the page; `make_worker` makes the dedicated worker that runs the engine, `charts` what
-/// the plot is drawn with.
 #[wasm_bindgen]
-pub fn start(make_worker: js_sys::Function, charts: plot::Charts) {
+extern "C" {
+    /// Makes the dedicated workers; `web/js/main.js`.
+    pub type Workers;
+    /// One that runs the engine.
+    #[wasm_bindgen(method, catch)]
+    fn engine(this: &Workers) -> Result<web_sys::Worker, JsValue>;
+    /// One that decodes dumps.
+    #[wasm_bindgen(method, catch)]
+    fn desk(this: &Workers) -> Result<web_sys::Worker, JsValue>;
+}
+
+/// Mounts the page; `charts` is what plots are drawn with.
+#[wasm_bindgen]
+pub fn start(workers: Workers, charts: plot::Charts) {
     leptos::mount::mount_to_body(move || {
         provide_context::<StoredValue<_, LocalStorage>>(StoredValue::new_local(charts));
-        app::app(&make_worker)
+        app::app(workers)
     });
 }

@@ -2,7 +2,7 @@
 
 mod chart;
 
-pub(crate) use chart::Charts;
+pub(crate) use chart::{Chart, Charts};
 
 use crate::app::App;
 use chart::{ChartView, Height, text, value_at};

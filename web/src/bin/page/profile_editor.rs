@@ -54,8 +54,8 @@ fn is_rare(format: Format, name: &str) -> bool {
 /// Whether a parameter is of use here.
 fn is_offered(offer: Offer, name: &str) -> bool {
     match offer {
-        Offer::Serial => name != "justify",
-        Offer::All => name != "baud",
+        Offer::Serial => !matches!(name, "justify" | "layout"),
+        Offer::All => !matches!(name, "baud" | "layout"),
     }
 }
 
@@ -78,7 +78,13 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
     let choose = move |name: String| {
         if let Some(format) = Format::parse(&name) {
             fault.set(None);
-            app.change_profile(format.default_profile());
+            let new = match format {
+                Format::Own => crate::decode::first_own(),
+                known => Some(known.default_profile()),
+            };
+            if let Some(new) = new {
+                app.change_profile(new);
+            }
         }
     };
     let read_model = move |text: String| {
@@ -101,6 +107,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
     };
     let formats = Format::ALL
         .iter()
+        .chain(&[Format::Own])
         .filter(move |format| offer == Offer::All || format.default_profile().is_serial());
     let format = Memo::new(move |_| app.profile.get().format);
     let shown = move |rare: bool| {

@@ -12,22 +12,31 @@ extern "C" {
     /// Makes charts; `web/js/plot.js`.
     pub type Charts;
     #[wasm_bindgen(method)]
-    fn chart(
+    pub fn chart(
         this: &Charts,
         element: &HtmlElement,
         quantity: &str,
         color: &str,
+        over: &str,
         tell: &JsValue,
     ) -> Chart;
 
     /// A chart.
-    type Chart;
+    pub type Chart;
     #[wasm_bindgen(method)]
-    fn draw(this: &Chart, times: &[f64], values: &[f64], from: f64, to: f64, low: f64, high: f64);
+    pub fn draw(
+        this: &Chart,
+        times: &[f64],
+        values: &[f64],
+        from: f64,
+        to: f64,
+        low: f64,
+        high: f64,
+    );
     #[wasm_bindgen(method)]
-    fn mark(this: &Chart, at: f64);
+    pub fn mark(this: &Chart, at: f64);
     #[wasm_bindgen(method)]
-    fn remove(this: &Chart);
+    pub fn remove(this: &Chart);
 }
 
 /// How high a chart reaches.
@@ -140,7 +149,13 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
         let made = tell.with_value(|tell| {
             let tell = tell.as_ref()?;
             Some(charts.with_value(|charts| {
-                charts.chart(&element, quantity.name(), color(quantity), tell.as_ref())
+                charts.chart(
+                    &element,
+                    quantity.name(),
+                    color(quantity),
+                    "time",
+                    tell.as_ref(),
+                )
             }))
         });
         chart.set(made.map(Rc::new));

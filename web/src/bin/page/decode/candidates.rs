@@ -1,0 +1,92 @@
+//! What the input may be; a click reads it that way.
+
+use crate::{app::App, desk::Choice};
+use encoderscope::{format::Format, profile::Profile};
+use encoderscope_web::{
+    link,
+    message::{CandidateView, ToDesk},
+};
+use leptos::prelude::*;
+
+/// Candidates that are shown at first.
+const BEST: usize = 3;
+
+/// A profile in a line.
+pub(super) fn describe(profile: &Profile) -> String {
+    let mut text = format!("{}, {} bit", profile.title(), profile.angle_bits);
+    if profile.turns_bits > 0 {
+        text += &format!(", {} bit turns", profile.turns_bits);
+    }
+    match profile.format {
+        Format::Rs485 => text += &format!(", reply to ‘{}’", profile.command.letter()),
+        Format::BissC => text += &format!(", {} status bits", profile.status_bits),
+        Format::Bus => text += &format!(", device 0x{:02X}", profile.address),
+        Format::SsiTree => {
+            text += &format!(
+                ", {}, {}, {} clocks",
+                profile.code.name(),
+                profile.align.name(),
+                profile.frame_bits
+            );
+        }
+        _ => {}
+    }
+    text
+}
+
+#[component]
+pub(super) fn Candidates() -> impl IntoView {
+    let app = expect_context::<App>();
+    let desk = app.desk;
+    let all = RwSignal::new(false);
+    let row = move |(index, candidate): (usize, CandidateView)| {
+        let profile = link::profile(&candidate.profile).ok()?;
+        let value = format!("{}&verdict={}", candidate.profile, candidate.verdict);
+        let change = candidate.change.clone();
+        let changes = change.is_some();
+        let choose = move |_| {
+            desk.choice.set(Choice::User);
+            if changes {
+                desk.send(ToDesk::Change(index));
+            }
+            app.change_profile(profile);
+        };
+        Some(view! {
+            <button
+                class="candidate"
+                class:chosen=move || app.profile.get() == profile && !changes
+                data-testid="candidate"
+                data-value=value
+                on:click=choose
+            >
+                <b>{describe(&profile)}</b>
+                <span class=format!("verdict {}", candidate.verdict)>{candidate.verdict.clone()}</span>
+                {change.map(|change| view! { <small class="fault">{change}</small> })}
+                <small>{candidate.evidence.join("; ")}</small>
+            </button>
+        })
+    };
+    move || {
+        let found = desk.candidates.get();
+        let more = found.len() > BEST;
+        let judging = desk.judging.get() && !desk.is_empty();
+        let some = if all.get() { found.len() } else { BEST };
+        let nothing =
+            !judging && found.is_empty() && !desk.is_empty() && desk.overview.get().lines > 0.0;
+        (!found.is_empty() || judging || nothing).then(|| {
+            view! {
+                <div class="candidates">
+                    <h2>"What it is"</h2>
+                    {nothing.then(|| view! {
+                        <p class="hint" data-testid="no-candidate">"No known format fits. More frames, or frames of a turning shaft, may tell."</p>
+                    })}
+                    {judging.then(|| view! { <p class="hint">"Comparing with every format…"</p> })}
+                    {found.into_iter().take(some).enumerate().filter_map(row).collect_view()}
+                    {(more && !all.get()).then(|| view! {
+                        <button class="quiet" on:click=move |_| all.set(true)>"More"</button>
+                    })}
+                </div>
+            }
+        })
+    }
+}

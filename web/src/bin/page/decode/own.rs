@@ -1,0 +1,198 @@
+//! A layout of the user's own: a row a field, over the same tables as the manuals' formats.
+
+use crate::app::App;
+use encoderscope::{
+    format::own::{Draft, Framing, Kind, SHIPPED, Written},
+    layout::Active,
+    profile::Profile,
+};
+use leptos::prelude::*;
+
+/// How frames can come, with a word for people.
+const WAYS: [(&str, &str); 4] = [
+    ("line", "clocked word (SSI)"),
+    ("biss", "BiSS-C"),
+    ("stream", "serial, unasked"),
+    ("poll:31", "serial, answers a byte"),
+];
+
+#[component]
+pub(super) fn OwnEditor() -> impl IntoView {
+    let app = expect_context::<App>();
+    let fault = RwSignal::new(None::<String>);
+    let written = Memo::new(move |_| {
+        let own = app.profile.get().own;
+        own.map(|own| own.written().clone())
+    });
+    let take = move |text: &str| match app.profile.get_untracked().with("layout", text) {
+        Ok(profile) => {
+            fault.set(None);
+            app.desk.choice.set(crate::desk::Choice::User);
+            app.change_profile(profile);
+        }
+        Err(error) => fault.set(Some(error.message)),
+    };
+    let change = move |with: &dyn Fn(&mut Written)| {
+        if let Some(mut new) = written.get_untracked() {
+            with(&mut new);
+            take(&new.to_string());
+        }
+    };
+    let option = |text: &str| {
+        let text = text.trim().to_owned();
+        (!text.is_empty()).then_some(text)
+    };
+    let field = move |index: usize, draft: Draft| {
+        let set = move |with: &dyn Fn(&mut Draft)| {
+            change(&|written| {
+                if let Some(field) = written.fields.get_mut(index) {
+                    with(field);
+                }
+            });
+        };
+        // What is written behind kind, width and name, for whoever knows the words.
+        let rest = {
+            let plain = Draft {
+                name: None,
+                ..draft.clone()
+            };
+            let text = plain.to_string();
+            text.splitn(3, ':').nth(2).unwrap_or_default().to_owned()
+        };
+        let kinds = Kind::ALL.iter().map(|kind| {
+            view! { <option value=kind.name() selected=*kind == draft.kind>{kind.name()}</option> }
+        });
+        let kind = move |name: String| {
+            let known = Kind::ALL.iter().find(|kind| kind.name() == name);
+            set(&|field| {
+                if let Some(kind) = known {
+                    let (least, most) = kind.widths();
+                    let width = field.width.clamp(least, most);
+                    *field = Draft::new(*kind, width);
+                    if *kind == Kind::Crc {
+                        field.width = 8;
+                        field.crc.polynomial = 0x97;
+                    }
+                }
+            });
+        };
+        let own_name = draft.name.clone();
+        let (kind_name, width, active) = (draft.kind.name(), draft.width, draft.active);
+        let details = move |text: String| {
+            let name = own_name.clone();
+            let text = match text.trim() {
+                "" => format!("{kind_name}:{width}"),
+                rest => format!("{kind_name}:{width}:{rest}"),
+            };
+            match text.parse::<Draft>() {
+                Ok(new) => set(&|field| {
+                    *field = Draft {
+                        name: name.clone(),
+                        ..new.clone()
+                    };
+                }),
+                Err(why) => fault.set(Some(why)),
+            }
+        };
+        let name = draft.name.unwrap_or_default();
+        view! {
+            <tr data-testid="own-field">
+                <td><select aria-label="Kind" on:change:target=move |event| kind(event.target().value())>{kinds.collect_view()}</select></td>
+                <td>
+                    <input
+                        aria-label="Bits"
+                        inputmode="numeric"
+                        prop:value=width.to_string()
+                        on:change:target=move |event| {
+                            let width = event.target().value().trim().parse().unwrap_or(0);
+                            set(&|field| field.width = width);
+                        }
+                    />
+                </td>
+                <td><input aria-label="Name" prop:value=name on:change:target=move |event| { let name = option(&event.target().value()); set(&|field| field.name.clone_from(&name)); } /></td>
+                <td>
+                    <input
+                        type="checkbox"
+                        aria-label="Active low"
+                        prop:checked=active == Active::Low
+                        on:change=move |_| set(&|field| field.active = match field.active { Active::Low => Active::High, Active::High => Active::Low })
+                    />
+                </td>
+                <td><input aria-label="Details" data-testid="own-details" prop:value=rest on:change:target=move |event| details(event.target().value()) /></td>
+                <td>
+                    <button class="quiet" aria-label="Up" on:click=move |_| change(&|written| if index > 0 { written.fields.swap(index, index - 1) })>"↑"</button>
+                    <button class="quiet" aria-label="Remove" on:click=move |_| change(&|written| { written.fields.remove(index); })>"×"</button>
+                </td>
+            </tr>
+        }
+    };
+    let choose = move |name: String| {
+        if let Some(shipped) = SHIPPED.iter().find(|shipped| shipped.name == name) {
+            take(shipped.name);
+        }
+    };
+    let short = move || app.profile.get().own.map_or("", |own| own.short());
+    view! {
+        <div class="own" data-testid="own">
+            <div class="profile">
+                <label>
+                    "Start from"
+                    <select data-testid="own-shipped" on:change:target=move |event| choose(event.target().value())>
+                        <option value="" selected=move || SHIPPED.iter().all(|shipped| shipped.name != short())>"…"</option>
+                        {SHIPPED.iter().map(|shipped| {
+                            let title = shipped.text.split(';').next().unwrap_or_default();
+                            view! { <option value=shipped.name selected=move || short() == shipped.name>{title}</option> }
+                        }).collect_view()}
+                    </select>
+                </label>
+                <label>
+                    "Name"
+                    <input
+                        data-testid="own-title"
+                        prop:value=move || written.get().map(|written| written.title).unwrap_or_default()
+                        on:change:target=move |event| { let title = event.target().value(); change(&|written| written.title.clone_from(&title)); }
+                    />
+                </label>
+                <label>
+                    "Frames come as"
+                    <select on:change:target=move |event| {
+                        if let Ok(framing) = event.target().value().parse::<Framing>() {
+                            change(&|written| written.framing = framing);
+                        }
+                    }>
+                        {WAYS.map(|(way, title)| view! {
+                            <option value=way selected=move || written.get().is_some_and(|written| written.framing.to_string().split(':').next() == way.split(':').next())>{title}</option>
+                        }).into_view()}
+                    </select>
+                </label>
+            </div>
+            <table>
+                <thead><tr><th>"kind"</th><th>"bits"</th><th>"name"</th><th>"low"</th><th>"details"</th><th></th></tr></thead>
+                <tbody>
+                    {move || written.get().map(|written| {
+                        written.fields.into_iter().enumerate().map(|(index, draft)| field(index, draft)).collect_view()
+                    })}
+                </tbody>
+            </table>
+            <button data-testid="own-add" on:click=move |_| change(&|written| written.fields.push(Draft::new(Kind::Skip, 1)))>"Add a field"</button>
+            <label>
+                "As text"
+                <textarea
+                    class="own-text"
+                    data-testid="own-text"
+                    spellcheck="false"
+                    prop:value=move || written.get().map(|written| written.to_string()).unwrap_or_default()
+                    on:change:target=move |event| take(&event.target().value())
+                />
+            </label>
+            {move || fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
+            <p class="hint">"Details: le, gray, 0x… (polynomial or constant), init=, xor=, reflected, from= and to= (fields a check covers), bits=a|b. The layout is part of the link."</p>
+        </div>
+    }
+}
+
+/// The profile that the editor begins with.
+pub(crate) fn first() -> Option<Profile> {
+    let shipped = SHIPPED.first()?;
+    Profile::parse([("format", "own"), ("layout", shipped.name)]).ok()
+}

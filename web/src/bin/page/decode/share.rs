@@ -1,0 +1,113 @@
+//! Out again: links, files, a report, and decoders to paste into a program.
+
+use crate::app::App;
+use encoderscope::{
+    decode::Decoder,
+    export::{Language, source},
+};
+use encoderscope_web::message::{FileKind, ToDesk};
+use leptos::prelude::*;
+use std::time::Duration;
+
+/// The page waits so long for the rows of the report.
+const REPORT: Duration = Duration::from_millis(400);
+
+/// Puts text on the clipboard, then says whether it is there.
+fn copy(text: String, said: RwSignal<Option<String>>, success: &'static str) {
+    leptos::task::spawn_local(async move {
+        let clipboard = window().navigator().clipboard();
+        let written = wasm_bindgen_futures::JsFuture::from(clipboard.write_text(&text)).await;
+        said.set(Some(match written {
+            Ok(_) => success.into(),
+            Err(_) => "The browser does not let the page use the clipboard.".into(),
+        }));
+    });
+}
+
+#[component]
+pub(super) fn Share() -> impl IntoView {
+    let app = expect_context::<App>();
+    let desk = app.desk;
+    let said = RwSignal::new(None::<String>);
+    Effect::new(move || {
+        desk.text.track();
+        desk.file.track();
+        app.profile.track();
+        said.set(None);
+    });
+    let wanted = RwSignal::new(false);
+    let link = move || {
+        let address = window().location().href().unwrap_or_default();
+        let page = address.split('#').next().unwrap_or_default().to_owned();
+        page + &app.fragment()
+    };
+    // The link is copied as soon as the input is packed into it.
+    Effect::new(move || {
+        let payload = desk.payload.get();
+        if !wanted.get() {
+            return;
+        }
+        match payload {
+            None => {}
+            Some(Ok(_)) => {
+                wanted.set(false);
+                copy(untrack(link), said, "Link copied.");
+            }
+            Some(Err(why)) => {
+                wanted.set(false);
+                said.set(Some(format!("{why} A file was saved instead: send that.")));
+                desk.send(ToDesk::Export(FileKind::Recording));
+            }
+        }
+    });
+    let share = move |_| {
+        if desk.payload.with_untracked(Option::is_none) {
+            desk.send(ToDesk::Share);
+        }
+        wanted.set(true);
+    };
+    let file = move |kind: FileKind, title: &'static str, id: &'static str| {
+        view! {
+            <button data-testid=id on:click=move |_| desk.send(ToDesk::Export(kind))>{title}</button>
+        }
+    };
+    let print = move |_| {
+        desk.send(ToDesk::Report);
+        set_timeout(
+            || {
+                // Where nothing can be printed the report is only not printed.
+                let _ = window().print();
+            },
+            REPORT,
+        );
+    };
+    let copy_as = move |language: Language| {
+        let copy_source = move |_| {
+            if let Ok(decoder) = Decoder::new(app.profile.get_untracked()) {
+                copy(source(&decoder, language), said, "Source copied.");
+            }
+        };
+        view! {
+            <button data-testid="copy-as" data-value=language.name() on:click=copy_source>{language.name()}</button>
+        }
+    };
+    move || {
+        (!desk.is_empty()).then(|| {
+            view! {
+                <h2>"Send it on"</h2>
+                <div class="doors">
+                    <button class="primary" data-testid="share" on:click=share>"Copy link"</button>
+                    {file(FileKind::Csv, "CSV", "save-csv")}
+                    {file(FileKind::JsonLines, "JSON lines", "save-json")}
+                    {file(FileKind::Recording, "Save as a file", "save-recording")}
+                    <button data-testid="print" on:click=print>"Print a report"</button>
+                </div>
+                <div class="doors">
+                    <span class="hint">"Copy this decoder as"</span>
+                    {Language::ALL.iter().copied().map(copy_as).collect_view()}
+                </div>
+                {move || said.get().map(|text| view! { <p class="hint" role="status" data-testid="said">{text}</p> })}
+            }
+        })
+    }
+}
