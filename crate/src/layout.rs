@@ -121,6 +121,39 @@ impl Role {
     }
 }
 
+impl Role {
+    /// The name of what a field with this role says, in snake case; those that only frame or check
+    /// the others say nothing.
+    ///
+    /// ```
+    /// use encoderscope::layout::Role;
+    /// assert_eq!(Role::ZeroDefault.quantity(), Some("zero_default"));
+    /// assert_eq!(Role::Crc.quantity(), None);
+    /// ```
+    #[must_use]
+    pub const fn quantity(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Operation => "operation",
+            Self::Turns => "turns",
+            Self::Angle => "angle",
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Status => "status",
+            Self::Alarm => "alarm",
+            Self::Enid => "enid",
+            Self::Speed => "speed",
+            Self::Temperature => "temperature",
+            Self::Count => "count",
+            Self::Address => "address",
+            Self::Valid => "valid",
+            Self::ZeroDefault => "zero_default",
+            Self::MemoryAddress => "memory_address",
+            Self::MemoryData => "memory_data",
+            Self::Framing | Self::Padding | Self::Repeat | Self::Crc | Self::Parity => return None,
+        })
+    }
+}
+
 /// Which level asserts a flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Active {

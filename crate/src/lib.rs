@@ -13,6 +13,7 @@
 //!   encoder's side of it all;
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`crc_search`]: the checksum of frames of an unknown format;
+//! - [`export`]: decoders as source, frames as tables;
 //! - [`adapter`]: what USB adapters can do.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
@@ -36,6 +37,7 @@ pub mod dump;
 pub mod emulator;
 pub mod errata;
 pub mod explain;
+pub mod export;
 pub mod finder;
 pub mod format;
 pub mod framing;

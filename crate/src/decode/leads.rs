@@ -7,6 +7,7 @@ use crate::{
     layout::Resolved,
     profile::Dialect,
 };
+use alloc::vec::Vec;
 
 /// What the profile's own address speaks for a BUS frame, in bits.
 const OWN_DEVICE: i8 = 6;
@@ -106,6 +107,33 @@ impl Decoder {
             return Some(self.refused(bytes).unwrap_or(layout));
         }
         Some(layout)
+    }
+
+    /// What an encoder of the profile's kind can send, each with a byte that begins it: of T485 and
+    /// BUS one for every byte that can, of other formats all for one byte.
+    ///
+    /// An encoder that does not know a T485 request answers with its angle.
+    #[must_use]
+    pub fn replies(&self) -> Vec<(u8, &Resolved)> {
+        if !self.echoes() {
+            return self.layouts.iter().map(|layout| (0, layout)).collect();
+        }
+        let known = |byte| match self.profile.format {
+            Format::T485 => t485::Request::of_byte(byte)
+                .is_some_and(|request| request.is_known_to(self.profile.dialect)),
+            _ => true,
+        };
+        let all = (0..=u8::MAX).zip(&self.leads);
+        all.filter_map(|(byte, lead)| {
+            let own = self.layouts.get(usize::from(lead.layout))?;
+            let sent = if known(byte) {
+                own
+            } else {
+                self.layouts.first()?
+            };
+            Some((byte, sent))
+        })
+        .collect()
     }
 
     /// The layout of the reply to a T485 request that the encoder did not understand: it sends

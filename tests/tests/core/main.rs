@@ -25,5 +25,6 @@ mod sequences;
 mod sessions;
 mod standstill;
 mod streams;
+mod tables;
 mod vectors;
 mod vectors_ssi;
