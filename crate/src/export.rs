@@ -1,7 +1,7 @@
 //! Decoders as source to paste into a program, and frames as tables.
 //!
 //! The source is made out of the same layout tables as the decoder, for one profile: it checks
-//! what [`crate::reading::Resolved`] checks and reads what it reads.
+//! what [`crate::layout::Resolved`] checks and reads what it reads.
 
 mod c;
 mod plan;

@@ -17,6 +17,13 @@ use alloc::{
 };
 use core::fmt;
 
+/// The name of the place in the input.
+pub const START: &str = "start";
+/// The name of the bytes of a frame.
+pub const HEX: &str = "hex";
+/// The name of what is wrong with a frame.
+pub const FAULTS: &str = "faults";
+
 /// A value of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -205,8 +212,8 @@ impl Frame<'_> {
             .map(|fault| fault.kind.to_string())
             .collect();
         Record::new()
-            .with("start", self.start)
-            .with("hex", hex(self.bits.bytes()))
+            .with(START, self.start)
+            .with(HEX, hex(self.bits.bytes()))
             .with("ok", faults.is_empty())
             .with("turns", values.turns)
             .with("angle", values.angle)
@@ -234,7 +241,7 @@ impl Frame<'_> {
             .with_known("alarm", known, values.alarm)
             .with_known("memoryAddress", known, values.memory.0)
             .with_known("memoryData", known, values.memory.1)
-            .with_some("faults", (!faults.is_empty()).then_some(faults))
+            .with_some(FAULTS, (!faults.is_empty()).then_some(faults))
     }
 }
 

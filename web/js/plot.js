@@ -60,9 +60,9 @@ class Chart {
   #watched;
 
   /** `tell(what, a, b)` is called with `zoom`, `cursor`, `mark`, `live` and `width`. */
-  constructor(element, quantity, color, over, tell) {
+  constructor(element, quantity, color, x, tell) {
     this.#tell = tell;
-    this.#u = new uPlot(this.#options(element, quantity, color, over), [[0, 1], [null, null]], element);
+    this.#u = new uPlot(this.#options(element, quantity, color, x), [[0, 1], [null, null]], element);
     const over = this.#u.over;
     over.addEventListener('click', () => this.#tell('mark', this.#u.posToVal(this.#u.cursor.left, 'x'), 0));
     element.addEventListener('keydown', (event) => this.#key(event));
@@ -76,7 +76,7 @@ class Chart {
     this.#watched = [resized, themed];
   }
 
-  #options(element, quantity, color, over) {
+  #options(element, quantity, color, x) {
     const axes = {
       time: {
         incrs: [...tenths, ...seconds],
@@ -98,7 +98,7 @@ class Chart {
         axis({
           size: 26,
           space: 70,
-          ...axes[over],
+          ...axes[x],
         }),
         axis({
           size: 58,
@@ -111,7 +111,7 @@ class Chart {
         y: false,
         points: { show: false },
         drag: { x: true, y: false, setScale: false },
-        ...(over === 'time' && { sync: { key: sync.key, setSeries: false, scales: ['x', null] } }),
+        ...(x === 'time' && { sync: { key: sync.key, setSeries: false, scales: ['x', null] } }),
         bind: { dblclick: () => () => this.#tell('live', 0, 0) },
       },
       hooks: {
@@ -191,4 +191,4 @@ class Chart {
 }
 
 /** A chart in an element over `time` or `rows`; `color` is a token of the style sheet. */
-export const chart = (element, quantity, color, over, tell) => new Chart(element, quantity, color, over, tell);
+export const chart = (element, quantity, color, x, tell) => new Chart(element, quantity, color, x, tell);

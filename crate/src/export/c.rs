@@ -1,13 +1,17 @@
 //! C99.
 
+mod crc;
+mod numbers;
+
+pub(super) use crc::crc;
+
 use super::{
-    plan::{Check, Choice, Kind, Piece, Plan, Problem, Reach, Reading, Reply, Source},
-    plan::{function, hex, pieces},
-    text::{closes_last, folded, indented, joined, lines, sentence, upper, wrapped},
+    plan::{Check, Choice, Kind, Plan, Problem, Reach, Reply},
+    plan::{function, hex},
+    text::{bare, folded, indented, joined, lines, sentence, upper, wrapped},
 };
 use crate::{
-    bits::{self, Span},
-    check::Algorithm,
+    bits,
     layout::{Covered, Field},
 };
 use alloc::{
@@ -15,6 +19,10 @@ use alloc::{
     string::{String, ToString},
     vec::Vec,
 };
+use numbers::{any, number, offset, read, shaped, taken, term};
+
+/// The longest line of a sum of bits.
+const ROOM: usize = 76;
 
 /// The whole file.
 pub(super) fn source(plan: &Plan<'_>) -> String {
@@ -168,98 +176,6 @@ static WORD from_gray(WORD code)
 }
 ";
 
-/// A function that computes a CRC.
-pub(super) fn crc(crc: &Algorithm, reach: Reach) -> Vec<String> {
-    let size = Kind::Unsigned(crc.width).size();
-    let word = format!("uint{size}_t");
-    let width = crc.width;
-    let of = |value| hex(value, width);
-    let top = of(bits::placed(1, width.saturating_sub(1)));
-    let all = of(bits::mask(width as usize));
-    let polynomial = of(crc.polynomial);
-    let name = function(crc);
-    let out = match crc.xorout {
-        0 => "crc".to_string(),
-        xorout => format!("({word})(crc ^ {})", of(xorout)),
-    };
-    let reflected = crc.refin && crc.refout;
-    let bytewise = reach == Reach::Bytes && (reflected || width >= 8 && !crc.refin && !crc.refout);
-    let mut text = comment(&sentence(&crc.to_string()));
-    if bytewise {
-        text.push(format!(
-            "static {word} {name}(const uint8_t *bytes, size_t len)"
-        ));
-        let init = match reflected {
-            true => bits::reversed(crc.init, width),
-            false => crc.init,
-        };
-        text.extend(lines(&format!("{{\n    {word} crc = {};", of(init))));
-        if crc.polynomial == 1 && width == 8 {
-            text.extend(lines(
-                "    for (size_t i = 0; i < len; i++)\n        crc ^= bytes[i];",
-            ));
-            text.extend(lines(&format!("    return {out};\n}}")));
-            return text;
-        }
-        text.push("    for (size_t i = 0; i < len; i++) {".into());
-        let body = if reflected {
-            let polynomial = of(bits::reversed(crc.polynomial, width));
-            format!(
-                "crc ^= bytes[i];\nfor (int bit = 0; bit < 8; bit++)\n    \
-                 crc = (crc & 1u) ? ({word})((crc >> 1) ^ {polynomial}) : ({word})(crc >> 1);"
-            )
-        } else {
-            let shift = match width - 8 {
-                0 => "bytes[i]".to_string(),
-                up => format!("({word})(bytes[i] << {up})"),
-            };
-            let cut = if width == size {
-                String::new()
-            } else {
-                format!("\ncrc &= {all};")
-            };
-            format!(
-                "crc ^= {shift};\nfor (int bit = 0; bit < 8; bit++)\n    crc = (crc & {top}) ? \
-                 ({word})((crc << 1) ^ {polynomial}) : ({word})(crc << 1);{cut}"
-            )
-        };
-        text.extend(indented(8, lines(&body)));
-        text.extend(lines(&format!("    }}\n    return {out};\n}}")));
-        return text;
-    }
-    // Bit by bit, as they come, serves every width, place and order.
-    let (given, bits) = match reach {
-        Reach::Bytes => ("size_t len", "size_t bit = 0; bit < len * 8; bit++"),
-        Reach::Bits => (
-            "unsigned first, unsigned count",
-            "unsigned bit = first; bit < first + count; bit++",
-        ),
-    };
-    let order = match (crc.refin, reach) {
-        (false, _) => "7 - bit % 8",
-        (true, _) => "bit % 8",
-    };
-    text.push(format!(
-        "static {word} {name}(const uint8_t *bytes, {given})"
-    ));
-    text.extend(lines(&format!(
-        "{{\n    {word} crc = {init};\n    for ({bits}) {{\n        \
-         bool carry = (((bytes[bit / 8] >> ({order})) ^ (crc >> {shift})) & 1) != 0;\n        \
-         crc = ({word})((crc << 1) & {all});\n        if (carry)\n            \
-         crc ^= {polynomial};\n    }}",
-        init = of(crc.init),
-        shift = width - 1,
-    )));
-    if crc.refout {
-        text.extend(lines(&format!(
-            "    {word} reversed = 0;\n    for (unsigned bit = 0; bit < {width}; bit++)\n        \
-             reversed = ({word})((reversed << 1) | ((crc >> bit) & 1));\n    crc = reversed;"
-        )));
-    }
-    text.extend(lines(&format!("    return {out};\n}}")));
-    text
-}
-
 fn signature(plan: &Plan<'_>, name: &str, is_static: Scope) -> Vec<String> {
     let scope = match is_static {
         Scope::Own => "static ",
@@ -345,7 +261,7 @@ fn fields(plan: &Plan<'_>, reply: &Reply<'_>) -> Vec<String> {
             out.push(format!("out->has_{name} = true;"));
         }
         let value = taken(plan, reply, value);
-        out.extend(folded(format!("out->{name} = {value};")));
+        out.extend(folded(ROOM, format!("out->{name} = {value};")));
     }
     out
 }
@@ -380,18 +296,18 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
                 out.extend(covered(reply, field));
             }
             let kind = Kind::Unsigned(crc.width);
-            let received = shaped(kind, &number(plan, reply, field), plan.word_size());
-            out.extend(folded(format!(
-                "const {} received = {received};",
-                integer(kind)
-            )));
+            let received = shaped(kind, &number(plan, reply, field));
+            out.extend(folded(
+                ROOM,
+                format!("const {} received = {received};", integer(kind)),
+            ));
             format!("received != {}({call})", function(crc))
         }
         Check::Parity(field, span, zero) => {
             let equal = if *zero == 0 { "!=" } else { "==" };
             format!(
                 "{} {equal} odd_ones(bytes, {}, {})",
-                number(plan, reply, field),
+                number(plan, reply, field).text,
                 span.start,
                 span.len
             )
@@ -399,11 +315,11 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
         Check::Fixed {
             field, mask, value, ..
         } => match value {
-            0 if !plan.is_bits() => any(reply, field, *mask, "!="),
+            0 if check.is_partial() || !plan.is_bits() => any(reply, field, *mask, "!="),
             _ => {
                 format!(
                     "{} != {}",
-                    number(plan, reply, field),
+                    number(plan, reply, field).text,
                     hex(*value, field.width)
                 )
             }
@@ -411,135 +327,6 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
     };
     out.extend(refuse(plan, &condition, check.problem()));
     out
-}
-
-fn offset(bytes: &str, at: usize) -> String {
-    match at {
-        0 => bytes.into(),
-        _ => format!("{bytes} + {at}"),
-    }
-}
-
-/// Whether any of the bits of a field that are in `mask` is set, or none is.
-fn any(reply: &Reply<'_>, field: &Field, mask: u64, than: &str) -> String {
-    let masked = reply.masked(field, mask);
-    let terms: Vec<String> = masked
-        .iter()
-        .map(|(byte, mask)| match mask {
-            0xff => format!("bytes[{byte}]"),
-            mask => format!("(bytes[{byte}] & {})", hex(*mask, 8)),
-        })
-        .collect();
-    match terms.as_slice() {
-        [one] => format!("{one} {than} 0"),
-        more => format!("({}) {than} 0", more.join(" | ")),
-    }
-}
-
-/// The number that a field holds, as an unsigned integer.
-fn number(plan: &Plan<'_>, reply: &Reply<'_>, field: &Field) -> String {
-    let parts = reply.layout.parts(field);
-    if plan.is_bits()
-        && let [part] = parts
-    {
-        return read(part.span);
-    }
-    let pieces = pieces(reply.layout, field);
-    let wide = Kind::Unsigned(field.width).size();
-    let terms: Vec<String> = pieces.iter().map(|piece| term(piece, wide)).collect();
-    match terms.as_slice() {
-        [one] => one.clone(),
-        more => format!("({})", more.join(" | ")),
-    }
-}
-
-fn read(span: Span) -> String {
-    format!("read_bits(bytes, {}, {})", span.start, span.len)
-}
-
-fn term(piece: &Piece, wide: u32) -> String {
-    let mut text = format!("bytes[{}]", piece.byte);
-    if piece.shift > 0 {
-        text = format!("({text} >> {})", piece.shift);
-    }
-    if piece.width + (piece.shift as usize) < 8 {
-        text = format!("({text} & {})", hex(bits::mask(piece.width), 8));
-    }
-    match (piece.place, wide) {
-        (0, _) => text,
-        (place, 64) => format!("((uint64_t){text} << {place})"),
-        (place, 32) => format!("((uint32_t){text} << {place})"),
-        (place, _) => format!("({text} << {place})"),
-    }
-}
-
-/// The value of a quantity.
-fn taken(plan: &Plan<'_>, reply: &Reply<'_>, value: &Reading<'_>) -> String {
-    let size = plan.word_size();
-    let all = |field: &Field| bits::mask(field.width as usize);
-    let flag = |field: &Field, than: &str| match plan.is_bits() {
-        true => format!("{} {than} 0", number(plan, reply, field)),
-        false => any(reply, field, all(field), than),
-    };
-    match (&value.from, value.kind) {
-        (Source::Field(field), Kind::Flag) => flag(field, "!="),
-        (Source::Inverted(field), Kind::Flag) => flag(field, "=="),
-        (Source::Bit(field, place), _) => any(reply, field, bits::placed(1, *place), "!="),
-        (Source::Inverted(field), kind) => {
-            let text = format!(
-                "{} ^ {}",
-                number(plan, reply, field),
-                hex(all(field), field.width)
-            );
-            cast(kind, &text)
-        }
-        (Source::Gray(field, word, below), kind) => {
-            let mut text = String::from("word");
-            if *below > 0 {
-                text = format!("(word >> {below})");
-            }
-            if *below as usize + (field.width as usize) < word.len {
-                text = format!("({text} & {})", hex(all(field), field.width));
-            }
-            shaped(kind, &text, size)
-        }
-        (Source::Field(field), kind) => shaped(kind, &number(plan, reply, field), size),
-    }
-}
-
-/// A number as the integer that holds it.
-fn shaped(kind: Kind, text: &str, word: u32) -> String {
-    // What is as wide as the integer, and unsigned, is not converted.
-    let plain = text.starts_with("bytes[")
-        || text.starts_with("((uint32_t)") && kind.size() == 32
-        || text.starts_with("((uint64_t)") && kind.size() == 64
-        || text.starts_with("(((uint32_t)") && kind.size() == 32
-        || text.starts_with("(((uint64_t)") && kind.size() == 64
-        || (text.starts_with("read_bits(") || text.contains("word")) && kind.size() == word;
-    match kind {
-        Kind::Signed(width) => {
-            let sign = hex(bits::placed(1, width.saturating_sub(1)), width);
-            let wide = if width < 32 { 32 } else { 64 };
-            cast(kind, &format!("(int{wide}_t)({text} ^ {sign}) - {sign}"))
-        }
-        _ if plain && closes_last(text) => {
-            let inner = text
-                .strip_prefix('(')
-                .and_then(|rest| rest.strip_suffix(')'));
-            inner.unwrap_or(text).into()
-        }
-        _ if plain => text.into(),
-        _ => cast(kind, text),
-    }
-}
-
-fn cast(kind: Kind, text: &str) -> String {
-    let call = text.starts_with("read_bits(") || text.starts_with('(');
-    match call && closes_last(text) {
-        // One pair of parentheses is enough.
-        true => format!("({}){text}", integer(kind)),
-        false => format!("({})({text})", integer(kind)),
-    }
 }
 
 /// A line of decimal digits.
@@ -592,11 +379,7 @@ fn choice(plan: &Plan<'_>) -> Vec<String> {
         Choice::Byte { other } => ("bytes[0]".into(), Some(*other)),
         Choice::One | Choice::Digits { .. } => return Vec::new(),
     };
-    let selector = selector
-        .strip_prefix('(')
-        .and_then(|rest| rest.strip_suffix(')'))
-        .map_or(selector.clone(), ToString::to_string);
-    body.push(format!("switch ({selector}) {{"));
+    body.push(format!("switch ({}) {{", bare(&selector)));
     for (index, reply) in plan.replies.iter().enumerate() {
         if Some(index) == other {
             continue;

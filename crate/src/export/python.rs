@@ -1,20 +1,25 @@
 //! Python 3.
 
+mod crc;
+mod numbers;
+
+pub(super) use crc::crc;
+
 use super::{
-    plan::{Check, Choice, Kind, Piece, Plan, Problem, Reach, Reading, Reply, Source},
-    plan::{function, hex, pieces},
-    text::{closes_last, folded, indented, joined, lines, pascal, sentence, upper, wrapped},
+    plan::{Check, Choice, Kind, Plan, Problem, Reach, Reply},
+    plan::{function, hex},
+    text::{bare, folded, indented, joined, lines, pascal, sentence, upper, wrapped},
 };
-use crate::{
-    bits::{self, Span},
-    check::Algorithm,
-    layout::{Covered, Field},
-};
+use crate::{bits, layout::Covered};
 use alloc::{
     format,
     string::{String, ToString},
     vec::Vec,
 };
+use numbers::{any, number, read, taken, term};
+
+/// The longest line of a sum of bits.
+const ROOM: usize = 76;
 
 /// The whole file.
 pub(super) fn source(plan: &Plan<'_>) -> String {
@@ -186,77 +191,6 @@ def from_gray(code: int) -> int:
 
 ";
 
-/// The loop over a run of bits.
-const BITS: &str = "for bit in range(first, first + count):";
-
-/// A function that computes a CRC.
-pub(super) fn crc(crc: &Algorithm, reach: Reach) -> Vec<String> {
-    let width = crc.width;
-    let of = |value| hex(value, width);
-    let all = of(bits::mask(width as usize));
-    let polynomial = of(crc.polynomial);
-    let name = function(crc);
-    let xorout = match crc.xorout {
-        0 => String::new(),
-        xorout => format!(" ^ {}", of(xorout)),
-    };
-    let about = indented(4, doc(&sentence(&crc.to_string())));
-    let given = match reach {
-        Reach::Bytes => "data: bytes",
-        Reach::Bits => "data: bytes, first: int, count: int",
-    };
-    let mut text = Vec::from([format!("def {name}({given}) -> int:")]);
-    text.extend(about);
-    let reflected = crc.refin && crc.refout;
-    let body = if reach == Reach::Bytes && crc.polynomial == 1 && width == 8 {
-        format!(
-            "crc = {}\nfor byte in data:\n    crc ^= byte\nreturn crc{xorout}",
-            of(crc.init)
-        )
-    } else if reach == Reach::Bytes && reflected {
-        format!(
-            "crc = {}\nfor byte in data:\n    crc ^= byte\n    for _ in range(8):\n        \
-             crc = (crc >> 1) ^ {} if crc & 1 else crc >> 1\nreturn crc{xorout}",
-            of(bits::reversed(crc.init, width)),
-            of(bits::reversed(crc.polynomial, width)),
-        )
-    } else {
-        let (loops, bit, by) = match (reach, crc.refin) {
-            (Reach::Bytes, false) => (
-                "for byte in data:\n    for place in range(7, -1, -1):",
-                "(byte >> place)",
-                8,
-            ),
-            (Reach::Bytes, true) => (
-                "for byte in data:\n    for place in range(8):",
-                "(byte >> place)",
-                8,
-            ),
-            (Reach::Bits, false) => (BITS, "read_bits(data, bit, 1)", 4),
-            (Reach::Bits, true) => (BITS, "read_bits(data, bit ^ 7, 1)", 4),
-        };
-        let reversed = match crc.refout {
-            true => format!("crc = int(f\"{{crc:0{width}b}}\"[::-1], 2)\n"),
-            false => String::new(),
-        };
-        let step = indented(
-            by,
-            lines(&format!(
-                "carry = ({bit} ^ (crc >> {})) & 1\ncrc = (crc << 1) & {all}\nif carry:\n    \
-                 crc ^= {polynomial}",
-                width - 1
-            )),
-        );
-        format!(
-            "crc = {}\n{loops}\n{}\n{reversed}return crc{xorout}",
-            of(crc.init),
-            step.join("\n")
-        )
-    };
-    text.extend(indented(4, lines(&body)));
-    text
-}
-
 fn reply_function(plan: &Plan<'_>, reply: &Reply<'_>) -> Vec<String> {
     let (name, text) = match plan.replies.len() {
         1 => (
@@ -306,7 +240,16 @@ fn fields(plan: &Plan<'_>, reply: &Reply<'_>) -> Vec<String> {
                 None => bare(&taken(plan, reply, value)).into(),
             },
         };
-        out.extend(indented(4, folded(format!("{}={text},", quantity.name))));
+        let name = quantity.name;
+        match folded(ROOM, text).as_slice() {
+            [one] => out.push(format!("    {name}={one},")),
+            more => {
+                out.push(format!("    {name}=("));
+                let terms = more.iter().map(|line| line.trim_start().to_string());
+                out.extend(indented(8, terms));
+                out.push("    ),".into());
+            }
+        }
     }
     out.push(")".into());
     out
@@ -346,7 +289,7 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
         Check::Fixed {
             field, mask, value, ..
         } => match value {
-            0 if !plan.is_bits() => any(reply, field, *mask, "!="),
+            0 if check.is_partial() || !plan.is_bits() => any(reply, field, *mask, "!="),
             _ => format!(
                 "{} != {}",
                 number(plan, reply, field),
@@ -356,94 +299,6 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
     };
     out.extend(refuse(plan, &condition, check.problem()));
     out
-}
-
-/// Whether any of the bits of a field that are in `mask` is set, or none is.
-fn any(reply: &Reply<'_>, field: &Field, mask: u64, than: &str) -> String {
-    let masked = reply.masked(field, mask);
-    let terms: Vec<String> = masked
-        .iter()
-        .map(|(byte, mask)| match mask {
-            0xff => format!("data[{byte}]"),
-            mask => format!("(data[{byte}] & {})", hex(*mask, 8)),
-        })
-        .collect();
-    match terms.as_slice() {
-        [one] => format!("{one} {than} 0"),
-        more => format!("({}) {than} 0", more.join(" | ")),
-    }
-}
-
-/// The number that a field holds.
-fn number(plan: &Plan<'_>, reply: &Reply<'_>, field: &Field) -> String {
-    let parts = reply.layout.parts(field);
-    if plan.is_bits()
-        && let [part] = parts
-    {
-        return read(part.span);
-    }
-    let pieces = pieces(reply.layout, field);
-    let terms: Vec<String> = pieces.iter().map(term).collect();
-    match terms.as_slice() {
-        [one] => one.clone(),
-        more => format!("({})", more.join(" | ")),
-    }
-}
-
-fn read(span: Span) -> String {
-    format!("read_bits(data, {}, {})", span.start, span.len)
-}
-
-fn term(piece: &Piece) -> String {
-    let mut text = format!("data[{}]", piece.byte);
-    if piece.shift > 0 {
-        text = format!("({text} >> {})", piece.shift);
-    }
-    if piece.width + (piece.shift as usize) < 8 {
-        text = format!("({text} & {})", hex(bits::mask(piece.width), 8));
-    }
-    match piece.place {
-        0 => text,
-        place => format!("({text} << {place})"),
-    }
-}
-
-/// The value of a quantity.
-fn taken(plan: &Plan<'_>, reply: &Reply<'_>, value: &Reading<'_>) -> String {
-    let all = |field: &Field| hex(bits::mask(field.width as usize), field.width);
-    let flag = |field: &Field, than: &str| match plan.is_bits() {
-        true => format!("{} {than} 0", number(plan, reply, field)),
-        false => any(reply, field, bits::mask(field.width as usize), than),
-    };
-    match (&value.from, value.kind) {
-        (Source::Field(field), Kind::Flag) => flag(field, "!="),
-        (Source::Inverted(field), Kind::Flag) => flag(field, "=="),
-        (Source::Bit(field, place), _) => any(reply, field, bits::placed(1, *place), "!="),
-        (Source::Inverted(field), _) => {
-            format!("{} ^ {}", number(plan, reply, field), all(field))
-        }
-        (Source::Gray(field, word, below), kind) => {
-            let mut text = String::from("word");
-            if *below > 0 {
-                text = format!("(word >> {below})");
-            }
-            if *below as usize + (field.width as usize) < word.len {
-                text = format!("({text} & {})", all(field));
-            }
-            signed(kind, &text)
-        }
-        (Source::Field(field), kind) => signed(kind, &number(plan, reply, field)),
-    }
-}
-
-fn signed(kind: Kind, text: &str) -> String {
-    match kind {
-        Kind::Signed(width) => {
-            let sign = hex(bits::placed(1, width.saturating_sub(1)), width);
-            format!("({text} ^ {sign}) - {sign}")
-        }
-        _ => text.into(),
-    }
 }
 
 /// A line of decimal digits.
@@ -516,15 +371,4 @@ fn choice(plan: &Plan<'_>) -> Vec<String> {
     }
     out.extend(indented(4, body));
     out
-}
-
-/// A text without the parentheses around it.
-fn bare(text: &str) -> &str {
-    let inner = text
-        .strip_prefix('(')
-        .and_then(|rest| rest.strip_suffix(')'));
-    match inner {
-        Some(inner) if closes_last(text) => inner,
-        _ => text,
-    }
 }

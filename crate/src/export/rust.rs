@@ -1,20 +1,25 @@
 //! Rust without the standard library.
 
+mod crc;
+mod numbers;
+
+pub(super) use crc::crc;
+
 use super::{
-    plan::{Check, Choice, Kind, Piece, Plan, Problem, Reach, Reading, Reply, Source},
-    plan::{function, hex, pieces},
+    plan::{Check, Choice, Kind, Plan, Problem, Reach, Reply},
+    plan::{function, hex},
     text::{folded, indented, joined, lines, pascal, sentence, upper, wrapped},
 };
-use crate::{
-    bits::{self, Span},
-    check::Algorithm,
-    layout::{Covered, Field},
-};
+use crate::{bits, layout::Covered};
 use alloc::{
     format,
     string::{String, ToString},
     vec::Vec,
 };
+use numbers::{any, flag, number, read, shaped, taken, term};
+
+/// The longest line, that of rustfmt, less the indentation of a statement.
+const ROOM: usize = 96;
 
 /// The whole file.
 pub(super) fn source(plan: &Plan<'_>) -> String {
@@ -38,7 +43,7 @@ fn head(plan: &Plan<'_>) -> Vec<String> {
     let paragraphs = [
         format!("Decodes {} frames of an absolute encoder.", plan.title),
         format!("Profile: `{}`", plan.profile),
-        format!("Input: {} {}", escaped(&plan.input()), plan.unit()),
+        format!("Input: {} {}", plan.input(), plan.unit()),
         "Made by Encoderscope. Needs `core` alone: no allocation, no dependencies.".into(),
     ];
     for (index, text) in paragraphs.iter().enumerate() {
@@ -51,13 +56,8 @@ fn head(plan: &Plan<'_>) -> Vec<String> {
     out
 }
 
-/// Text in which brackets make no links.
-fn escaped(text: &str) -> String {
-    text.replace('[', "\\[")
-}
-
 fn doc(text: &str) -> Vec<String> {
-    wrapped("/// ", &escaped(text))
+    wrapped("/// ", text)
 }
 
 fn frame(plan: &Plan<'_>) -> String {
@@ -171,7 +171,8 @@ fn helpers(plan: &Plan<'_>) -> Vec<String> {
 const PARITY: &str = "\
 /// Whether the number of ones in `count` bits from bit `first` on is odd.
 fn odd_ones(bytes: &[u8], first: usize, count: usize) -> bool {
-    (first..first + count).fold(false, |odd, bit| odd ^ (bytes[bit / 8] >> (7 - bit % 8) & 1 == 1))
+    let ones = (first..first + count).filter(|bit| (bytes[bit / 8] >> (7 - bit % 8)) & 1 == 1);
+    ones.count() % 2 == 1
 }
 ";
 
@@ -179,7 +180,7 @@ const READ_BITS: &str = "\
 /// The number in `count` bits from bit `first` on, the most significant one first.
 fn read_bits(bytes: &[u8], first: usize, count: usize) -> WORD {
     (first..first + count).fold(0, |value, bit| {
-        value << 1 | WORD::from(bytes[bit / 8] >> (7 - bit % 8) & 1)
+        (value << 1) | WORD::from((bytes[bit / 8] >> (7 - bit % 8)) & 1)
     })
 }
 ";
@@ -195,103 +196,6 @@ fn from_gray(mut code: WORD) -> WORD {
     code
 }
 ";
-
-/// A function that computes a CRC.
-pub(super) fn crc(crc: &Algorithm, reach: Reach) -> Vec<String> {
-    let size = Kind::Unsigned(crc.width).size();
-    let word = format!("u{size}");
-    let width = crc.width;
-    let of = |value| hex(value, width);
-    let top = of(bits::placed(1, width.saturating_sub(1)));
-    let all = of(bits::mask(width as usize));
-    let polynomial = of(crc.polynomial);
-    let name = function(crc);
-    let xorout = match crc.xorout {
-        0 => String::new(),
-        xorout => format!(" ^ {}", of(xorout)),
-    };
-    let mut text = doc(&sentence(&crc.to_string()));
-    let reflected = crc.refin && crc.refout;
-    let bytewise = reach == Reach::Bytes && (reflected || width >= 8 && !crc.refin && !crc.refout);
-    if bytewise && crc.polynomial == 1 && width == 8 {
-        let init = of(crc.init);
-        text.extend(lines(&format!(
-            "fn {name}(bytes: &[u8]) -> {word} {{\n    \
-             bytes.iter().fold({init}, |sum, byte| sum ^ byte){xorout}\n}}"
-        )));
-        return text;
-    }
-    if bytewise {
-        let init = match reflected {
-            true => bits::reversed(crc.init, width),
-            false => crc.init,
-        };
-        let (enter, step) = if reflected {
-            let polynomial = of(bits::reversed(crc.polynomial, width));
-            (
-                match size {
-                    8 => "*byte".to_string(),
-                    _ => format!("{word}::from(*byte)"),
-                },
-                format!("if crc & 1 != 0 {{ crc >> 1 ^ {polynomial} }} else {{ crc >> 1 }}"),
-            )
-        } else {
-            let enter = match width - 8 {
-                0 => "*byte".to_string(),
-                up => format!("{word}::from(*byte) << {up}"),
-            };
-            let step =
-                format!("if crc & {top} != 0 {{ crc << 1 ^ {polynomial} }} else {{ crc << 1 }}");
-            (enter, step)
-        };
-        let cut = match width == size || reflected {
-            true => String::new(),
-            false => format!(" & {all}"),
-        };
-        let step = match cut.as_str() {
-            "" => step,
-            cut => format!("({step}){cut}"),
-        };
-        text.extend(lines(&format!(
-            "fn {name}(bytes: &[u8]) -> {word} {{\n    let mut crc: {word} = {};\n    \
-             for byte in bytes {{\n        crc ^= {enter};\n        for _ in 0..8 {{\n            \
-             crc = {step};\n        }}\n    }}\n    crc{xorout}\n}}",
-            of(init)
-        )));
-        return text;
-    }
-    // Bit by bit, as they come, serves every width, place and order.
-    let (given, bits) = match reach {
-        Reach::Bytes => ("", "0..bytes.len() * 8"),
-        Reach::Bits => (", first: usize, count: usize", "first..first + count"),
-    };
-    let order = if crc.refin {
-        "bit % 8"
-    } else {
-        "(7 - bit % 8)"
-    };
-    let enter = match size {
-        8 => format!("bytes[bit / 8] >> {order}"),
-        _ => format!("{word}::from(bytes[bit / 8] >> {order})"),
-    };
-    text.extend(lines(&format!(
-        "fn {name}(bytes: &[u8]{given}) -> {word} {{\n    let mut crc: {word} = {init};\n    \
-         for bit in {bits} {{\n        let carry = ({enter} ^ crc >> {shift}) & 1 != 0;\n        \
-         crc = crc << 1 & {all};\n        if carry {{\n            crc ^= {polynomial};\n        \
-         }}\n    }}",
-        init = of(crc.init),
-        shift = width - 1,
-    )));
-    if crc.refout {
-        let spare = size - width;
-        text.push(match spare {
-            0 => "    crc = crc.reverse_bits();".into(),
-            spare => format!("    crc = crc.reverse_bits() >> {spare};"),
-        });
-    }
-    text.extend(lines(&format!("    crc{xorout}\n}}")));
-    text
-}
 
 fn reply_function(plan: &Plan<'_>, reply: &Reply<'_>) -> Vec<String> {
     let (name, text) = match plan.replies.len() {
@@ -346,12 +250,23 @@ fn fields(plan: &Plan<'_>, reply: &Reply<'_>) -> Vec<String> {
     }
     out.push(format!("Ok({} {{", frame(plan)));
     for quantity in &plan.quantities {
+        let name = quantity.name;
         let text = match (reply.value(quantity), quantity.optional) {
             (None, _) => "None".into(),
-            (Some(value), true) => format!("Some({})", taken(plan, reply, value)),
+            (Some(value), true) => {
+                let value = taken(plan, reply, value);
+                // "name: Some(value)," inside a struct.
+                if name.len() + value.len() + 9 > ROOM - 4 {
+                    out.push(format!("    {name}: Some("));
+                    out.extend(indented(8, folded(ROOM - 8, format!("{value},"))));
+                    out.push("    ),".into());
+                    continue;
+                }
+                format!("Some({value})")
+            }
             (Some(value), false) => taken(plan, reply, value),
         };
-        out.extend(indented(4, folded(format!("{}: {text},", quantity.name))));
+        out.extend(indented(4, folded(ROOM - 4, format!("{name}: {text},"))));
     }
     out.push("})".into());
     out
@@ -366,7 +281,11 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
                 (Covered::Frame, Reach::Bytes) => "&covered".into(),
                 (Covered::Frame, Reach::Bits) => format!("&covered, 0, {}", reply.layout.len),
                 (Covered::Run(span), Reach::Bytes) => {
-                    format!("&bytes[{}..{}]", span.start / 8, span.end() / 8)
+                    let start = match span.start / 8 {
+                        0 => String::new(),
+                        start => start.to_string(),
+                    };
+                    format!("&bytes[{start}..{}]", span.end() / 8)
                 }
                 (Covered::Run(span), Reach::Bits) => {
                     format!("bytes, {}, {}", span.start, span.len)
@@ -382,7 +301,7 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
             }
             let kind = Kind::Unsigned(crc.width);
             let received = shaped(plan, kind, &number(plan, reply, field));
-            out.extend(folded(format!("let received = {received};")));
+            out.extend(folded(ROOM, format!("let received = {received};")));
             format!("received != {}({call})", function(crc))
         }
         Check::Parity(field, span, zero) => {
@@ -396,7 +315,7 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
         Check::Fixed {
             field, mask, value, ..
         } => match value {
-            0 if !plan.is_bits() => any(reply, field, *mask, "!="),
+            0 if check.is_partial() || !plan.is_bits() => any(reply, field, *mask, "!="),
             _ => format!(
                 "{} != {}",
                 number(plan, reply, field),
@@ -406,116 +325,6 @@ fn broken(plan: &Plan<'_>, reply: &Reply<'_>, check: &Check<'_>) -> Vec<String> 
     };
     out.extend(refuse(plan, &condition, check.problem()));
     out
-}
-
-/// Whether any of the bits of a field that are in `mask` is set, or none is.
-fn any(reply: &Reply<'_>, field: &Field, mask: u64, than: &str) -> String {
-    let masked = reply.masked(field, mask);
-    let one = masked.len() == 1;
-    let terms: Vec<String> = masked
-        .iter()
-        .map(|(byte, mask)| match mask {
-            0xff => format!("bytes[{byte}]"),
-            mask if one => format!("bytes[{byte}] & {}", hex(*mask, 8)),
-            mask => format!("(bytes[{byte}] & {})", hex(*mask, 8)),
-        })
-        .collect();
-    format!("{} {than} 0", terms.join(" | "))
-}
-
-/// Whether the only bit of a field is set.
-fn flag(plan: &Plan<'_>, reply: &Reply<'_>, field: &Field, than: &str) -> String {
-    match plan.is_bits() {
-        true => format!("{} {than} 0", number(plan, reply, field)),
-        false => any(reply, field, bits::mask(field.width as usize), than),
-    }
-}
-
-/// The number that a field holds, as an unsigned integer.
-fn number(plan: &Plan<'_>, reply: &Reply<'_>, field: &Field) -> String {
-    let parts = reply.layout.parts(field);
-    if plan.is_bits()
-        && let [part] = parts
-    {
-        return read(part.span);
-    }
-    let wide = Kind::Unsigned(field.width).size();
-    let pieces = pieces(reply.layout, field);
-    let terms: Vec<String> = pieces.iter().map(|piece| term(piece, wide)).collect();
-    terms.join(" | ")
-}
-
-fn read(span: Span) -> String {
-    format!("read_bits(bytes, {}, {})", span.start, span.len)
-}
-
-fn term(piece: &Piece, wide: u32) -> String {
-    let mut text = format!("bytes[{}]", piece.byte);
-    if piece.shift > 0 {
-        text = format!("{text} >> {}", piece.shift);
-    }
-    if piece.width + (piece.shift as usize) < 8 {
-        text = format!("{text} & {}", hex(bits::mask(piece.width), 8));
-    }
-    match (piece.place, wide) {
-        (_, 8) => text,
-        (0, wide) => format!("u{wide}::from({text})"),
-        (place, wide) => format!("u{wide}::from({text}) << {place}"),
-    }
-}
-
-/// The value of a quantity.
-fn taken(plan: &Plan<'_>, reply: &Reply<'_>, value: &Reading<'_>) -> String {
-    let all = |field: &Field| hex(bits::mask(field.width as usize), field.width);
-    match (&value.from, value.kind) {
-        (Source::Field(field), Kind::Flag) => flag(plan, reply, field, "!="),
-        (Source::Inverted(field), Kind::Flag) => flag(plan, reply, field, "=="),
-        (Source::Bit(field, place), _) => any(reply, field, bits::placed(1, *place), "!="),
-        (Source::Inverted(field), kind) => {
-            let text = format!("({} ^ {})", number(plan, reply, field), all(field));
-            format!("{text} as {}", integer(kind))
-        }
-        (Source::Gray(field, word, below), kind) => {
-            let mut text = String::from("word");
-            if *below > 0 {
-                text = format!("word >> {below}");
-            }
-            if *below as usize + (field.width as usize) < word.len {
-                text = format!("{text} & {}", all(field));
-            }
-            shaped(plan, kind, &text)
-        }
-        (Source::Field(field), kind) => shaped(plan, kind, &number(plan, reply, field)),
-    }
-}
-
-/// A number as the integer that holds it.
-fn shaped(plan: &Plan<'_>, kind: Kind, text: &str) -> String {
-    let own = match plan.is_bits() {
-        true => plan.word_size(),
-        false => kind.size(),
-    };
-    let one = text.starts_with("read_bits(") || !text.contains(' ');
-    let whole = if one {
-        text.into()
-    } else {
-        format!("({text})")
-    };
-    match kind {
-        // A number as wide as the integer has its sign where it belongs.
-        Kind::Signed(width) if width == kind.size() => format!("{whole} as {}", integer(kind)),
-        Kind::Signed(width) => {
-            let sign = hex(bits::placed(1, width.saturating_sub(1)), width);
-            let wide = if width < 32 { 32 } else { 64 };
-            let number = format!("({whole} ^ {sign}) as i{wide} - {sign}");
-            match wide == kind.size() {
-                true => number,
-                false => format!("({number}) as {}", integer(kind)),
-            }
-        }
-        _ if own == kind.size() => text.into(),
-        _ => format!("{whole} as {}", integer(kind)),
-    }
 }
 
 /// A line of decimal digits.

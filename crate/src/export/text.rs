@@ -73,9 +73,9 @@ pub(super) fn sentence(text: &str) -> String {
     first.into_iter().chain(letters).chain(stop).collect()
 }
 
-/// A sum of bits on lines of its own where it is too long for one.
-pub(super) fn folded(line: String) -> Vec<String> {
-    if line.len() <= 80 || !line.contains(" | ") {
+/// A sum of bits on lines of its own where one of `room` letters is too short for it.
+pub(super) fn folded(room: usize, line: String) -> Vec<String> {
+    if line.len() <= room || !line.contains(" | ") {
         return Vec::from([line]);
     }
     let mut parts = line.split(" | ");
@@ -114,4 +114,15 @@ pub(super) fn closes_last(text: &str) -> bool {
         }
     }
     false
+}
+
+/// A text without the parentheses around it.
+pub(super) fn bare(text: &str) -> &str {
+    let inner = text
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'));
+    match inner {
+        Some(inner) if closes_last(text) => inner,
+        _ => text,
+    }
 }

@@ -26,5 +26,6 @@ mod sequences;
 mod sessions;
 mod standstill;
 mod streams;
+mod tables;
 mod vectors;
 mod vectors_ssi;
