@@ -125,6 +125,8 @@ pub struct Capture {
     burst: Burst,
     /// A frame that may turn out to be aborted by what comes next.
     held: Option<Judged>,
+    /// Clocks of the frame before that.
+    clocks: u32,
     /// What was found where there is no frame to tell it of.
     stray: Vec<Violation>,
     /// Half a period of the frame before.
@@ -221,6 +223,7 @@ impl Capture {
             begin: None,
             burst: Burst::default(),
             held: None,
+            clocks: 0,
             stray: Vec::new(),
             half: 0,
             acknowledge: None,
@@ -265,10 +268,10 @@ impl Capture {
     pub fn finish(&mut self, end: i64) {
         self.close(end, Ending::Recording);
         if let Some(mut last) = self.held.take() {
-            if !self
-                .rules
-                .is_silent(end.saturating_sub(last.end), last.half)
-            {
+            // A frame as long as the one before is not cut, wherever the recording ends.
+            let same = last.frame.clocks == self.clocks;
+            let silence = end.saturating_sub(last.end);
+            if !same && !self.rules.is_silent(silence, last.half) {
                 last.cut();
             }
             self.release(last, None);
@@ -328,6 +331,7 @@ impl Capture {
         judged.frame.violations.splice(0..0, strays);
         match self.held.take() {
             Some(before) => {
+                self.clocks = before.frame.clocks;
                 let gap = judged.start.saturating_sub(before.end);
                 let aborted = before.is_aborted_by(&judged);
                 if aborted {

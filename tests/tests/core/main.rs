@@ -5,6 +5,7 @@
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
 mod captures;
+mod captures_files;
 mod detection;
 mod doctor;
 mod dumps;
