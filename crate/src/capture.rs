@@ -194,15 +194,16 @@ impl Rules {
 
     /// Whether an edge to `level` after `gap` begins another burst.
     fn splits(&self, burst: &Burst, gap: i64, level: bool) -> bool {
+        // Most edges come soon.
+        let whole = !level && self.timing.words == Words::Once && burst.falls() >= self.needed();
+        if self.is_timed() && gap <= self.timing.silence() && !whole {
+            return false;
+        }
         let Some(half) = burst.recent_half() else {
             // One edge is not yet a clock: after a rising one the line rests.
             return !level && self.is_timed() && gap > self.timing.silence();
         };
-        let whole = !level
-            && self.timing.words == Words::Once
-            && burst.falls() >= self.needed()
-            && gap > half.saturating_mul(PAUSE_FACTOR);
-        whole || self.is_silent(gap, half)
+        whole && gap > half.saturating_mul(PAUSE_FACTOR) || self.is_silent(gap, half)
     }
 }
 

@@ -1,14 +1,19 @@
 //! One burst of clock edges: its bits, and what is wrong with it.
 
+mod judged;
+
+pub(super) use judged::Judged;
+
 use super::{Clocked, Ending, Rules, Violation, ViolationKind};
 use crate::{
-    bits::BitString,
+    bits::{BitString, Bits},
     format::{
-        Format,
-        timing::{Beyond, SECOND, Words},
+        Format, biss_c,
+        timing::{Beyond, SECOND},
     },
 };
 use alloc::vec::Vec;
+use judged::State;
 
 /// Data edges of a burst that are kept; what follows is noise.
 const MOST_DATA: usize = 2 * super::MOST_EDGES;
@@ -180,36 +185,23 @@ impl Burst {
 
         let mut needed = rules.needed();
         let mut word = rules.word();
-        let mut zeros = None;
-        if rules.is_biss() {
-            let run = |from: usize, level: bool| {
-                let same =
-                    (from..bits.as_bits().len()).take_while(|at| bits.as_bits().bit(*at) == level);
-                same.count()
-            };
-            let idle = run(0, true);
-            let ack = run(idle, false);
-            if ack > 0 && idle + ack < bits.as_bits().len() {
-                let (idle, ack) = (idle as u32, ack as u32);
-                let expected = rules.profile.ack_bits;
-                word = word - expected + ack;
-                needed = idle + word;
-                zeros = Some(ack);
-                if ack != expected {
-                    let at = falls.get(idle as usize).copied().unwrap_or(start);
-                    let before = acknowledge.filter(|before| *before != ack);
-                    found(
-                        at,
-                        Some(idle + 1),
-                        ViolationKind::Acknowledge {
-                            bits: ack,
-                            expected,
-                            before,
-                        },
-                    );
-                }
+        let zeros = acknowledged(rules, bits.as_bits()).map(|(idle, ack)| {
+            let expected = rules.profile.ack_bits;
+            word = word - expected + ack;
+            needed = idle + word;
+            if ack != expected {
+                found(
+                    falls.get(idle as usize).copied().unwrap_or(start),
+                    Some(idle + 1),
+                    ViolationKind::Acknowledge {
+                        bits: ack,
+                        expected,
+                        before: acknowledge.filter(|before| *before != ack),
+                    },
+                );
             }
-        }
+            ack
+        });
 
         let hertz = frequency(&falls);
         if let Some(hertz) = hertz.filter(|_| rules.is_timed()) {
@@ -231,10 +223,10 @@ impl Burst {
                 None,
                 ViolationKind::DataStuck { level },
             );
-        } else if let Some((time, measured)) = self.returned(rules, &rises, last_fall, end)
+        } else if let Some((time, kind)) = self.returned(rules, &rises, last_fall, end)
             && count >= needed
         {
-            found(time, None, ViolationKind::Timeout { measured });
+            found(time, None, kind);
         }
         let gap =
             (rules.profile.format == Format::Ssi7 && rest > rules.timing.returns.0).then(|| {
@@ -268,34 +260,33 @@ impl Burst {
         }
     }
 
-    /// How long after the last falling edge the data line becomes high, and when, if that is
-    /// wrong.
+    /// When the data line becomes high behind the frame, if that is too early or too late.
     fn returned(
         &self,
         rules: &Rules,
         rises: &[i64],
         last_fall: i64,
         end: i64,
-    ) -> Option<(i64, i64)> {
+    ) -> Option<(i64, ViolationKind)> {
         if !rules.is_timed() {
             return None;
         }
         let (least, most) = rules.timing.returns;
-        let last_rise = rises.last().copied().filter(|rise| *rise > last_fall)?;
-        // What changes within half a period of the last rising edge is the last bit's successor.
-        let high = last_rise - last_fall;
-        let last = self.data.last()?;
-        let (time, measured) = match last.level {
-            true if last.time > last_rise.saturating_add(high) => {
-                (last.time, last.time.saturating_sub(last_fall))
-            }
-            true => return None,
-            false => (end, end.saturating_sub(last_fall)),
-        };
         let margin = rules.resolution();
-        let early = last.level && measured.saturating_add(margin) < part(least, 100 - TOLERANCE);
-        let late = measured.saturating_sub(margin) > part(most, 100 + TOLERANCE);
-        (early || late).then_some((time, measured))
+        let is_late = |measured: i64| measured.saturating_sub(margin) > part(most, 100 + TOLERANCE);
+        let last_rise = rises.last().copied().filter(|rise| *rise > last_fall)?;
+        let last = self.data.last()?;
+        if !last.level {
+            let measured = end.saturating_sub(last_fall);
+            return is_late(measured).then_some((end, ViolationKind::NotReady { measured }));
+        }
+        // What changes within half a period of the last rising edge follows the last bit.
+        let high = last_rise - last_fall;
+        let measured = last.time.saturating_sub(last_fall);
+        let is_early = measured.saturating_add(margin) < part(least, 100 - TOLERANCE);
+        let behind = last.time > last_rise.saturating_add(high);
+        (behind && (is_early || is_late(measured)))
+            .then_some((last.time, ViolationKind::Timeout { measured }))
     }
 
     /// The changes of data that come when it is being read, or after.
@@ -356,6 +347,12 @@ fn ranked(edges: &[Step], part: usize) -> Option<i64> {
     halves.get(halves.len() / part).copied()
 }
 
+/// Idle and acknowledge bits in front of the start bit of BiSS-C.
+fn acknowledged(rules: &Rules, bits: Bits<'_>) -> Option<(u32, u32)> {
+    let (idle, ack) = biss_c::preamble(bits)?;
+    rules.is_biss().then_some((idle, ack))
+}
+
 /// The frequency of the clock, the first and longer periods left aside.
 fn frequency(falls: &[i64]) -> Option<f64> {
     let regular = if falls.len() > 2 {
@@ -394,129 +391,5 @@ fn of_frequency(rules: &Rules, hertz: f64, low: i64) -> Option<ViolationKind> {
         }
         // A line whose delay needs compensating shows in the data.
         _ => None,
-    }
-}
-
-/// How a burst stands to a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    Whole,
-    Short,
-    Remainder,
-    Cut,
-}
-
-/// A burst with its bits, and what is needed to judge it by its neighbours.
-#[derive(Clone, Debug)]
-pub(super) struct Judged {
-    pub(super) frame: Clocked,
-    /// Its first and last edge.
-    pub(super) start: i64,
-    pub(super) end: i64,
-    /// Its first falling edge.
-    pub(super) first: Option<i64>,
-    pub(super) half: i64,
-    pub(super) acknowledge: Option<u32>,
-    /// Level of the data line before its first falling edge.
-    pub(super) idle: bool,
-    /// Whether the clock was low before.
-    began_low: bool,
-    needed: u32,
-    word: u32,
-    state: State,
-}
-
-impl Judged {
-    fn found(&mut self, rules: &Rules, time: i64, clock: Option<u32>, kind: ViolationKind) {
-        self.frame.violations.push(Violation {
-            time,
-            clock,
-            kind,
-            timing: rules.timing,
-        });
-    }
-
-    /// Whether `next` is the rest of this reading.
-    pub(super) fn is_aborted_by(&self, next: &Self) -> bool {
-        let low = next.began_low && !self.began_low;
-        let sum = self.frame.clocks + next.frame.clocks;
-        self.state == State::Short && (low || sum == self.needed)
-    }
-
-    /// Says that this is the rest of an aborted reading.
-    pub(super) fn remain(&mut self) {
-        self.state = State::Remainder;
-        // What is cut short has no acknowledge to speak of.
-        let acknowledges = |kind| matches!(kind, ViolationKind::Acknowledge { .. });
-        self.frame
-            .violations
-            .retain(|violation| !acknowledges(violation.kind));
-        self.acknowledge = None;
-    }
-
-    /// Says that the recording does not hold the whole of it, where it is short.
-    pub(super) fn cut(&mut self) {
-        if self.state == State::Short {
-            self.state = State::Cut;
-        }
-    }
-
-    /// Judges the pause before it.
-    pub(super) fn paused(&mut self, rules: &Rules, pause: i64) {
-        let time = self.start;
-        if self.began_low {
-            self.found(rules, time, None, ViolationKind::IdleLow);
-        } else if rules.is_timed()
-            && pause.saturating_add(rules.resolution()) < part(rules.timing.pause, 100 - TOLERANCE)
-        {
-            self.found(
-                rules,
-                time,
-                Some(1),
-                ViolationKind::Pause { measured: pause },
-            );
-        }
-    }
-
-    /// Judges what there is of the recording before its first burst.
-    pub(super) fn opened(&mut self, rules: &Rules, begin: i64) {
-        if !rules.is_silent(self.start.saturating_sub(begin), self.half) {
-            self.cut();
-        } else if self.began_low {
-            let time = self.start;
-            self.found(rules, time, None, ViolationKind::IdleLow);
-        }
-    }
-
-    /// The frame, once all is known; `aborted` is the rest of the clock that ended it early.
-    pub(super) fn concluded(mut self, rules: &Rules, aborted: Option<i64>) -> Clocked {
-        let falling = self.frame.clocks;
-        let (needed, word) = (self.needed, self.word);
-        let whole = match rules.timing.words {
-            _ if rules.is_biss() => true,
-            Words::Once => falling == needed,
-            // Each time the word comes, a 0 comes with it; behind the last it may be missing.
-            Words::Ring => falling == needed || falling >= 2 * needed && falling % needed < 2,
-        };
-        let clocks = ViolationKind::Clocks {
-            falling,
-            word,
-            needed,
-        };
-        let (start, end) = (self.start, self.end);
-        match (self.state, aborted) {
-            (State::Remainder, _) => self.found(rules, start, Some(1), ViolationKind::Remainder),
-            (State::Cut, _) => self.found(rules, start, None, ViolationKind::Cut),
-            (_, Some(half)) => {
-                self.found(rules, end, Some(falling), ViolationKind::Aborted { half });
-            }
-            (State::Short, None) => self.found(rules, end, Some(falling), clocks),
-            (State::Whole, None) if !whole => self.found(rules, end, Some(falling), clocks),
-            (State::Whole, None) => {}
-        }
-        self.frame
-            .violations
-            .sort_by_key(|violation| violation.time);
-        self.frame
     }
 }

@@ -92,6 +92,8 @@ impl fmt::Display for Unreadable {
 pub struct Named {
     /// Names of the signals, in the order of their indexes.
     pub names: Vec<String>,
+    /// Signals that turned out to hold more than 0 and 1.
+    pub others: Vec<usize>,
     /// What the times are worth.
     pub clocking: Clocking,
     /// When the recording ended.
@@ -187,6 +189,11 @@ impl Recording {
             signal.name.clone_from(name);
             signal.finish(named.end);
         }
+        for other in &named.others {
+            if let Some(signal) = signals.get_mut(*other) {
+                *signal = Signal::new(&signal.name);
+            }
+        }
         let find = |asked: Option<&str>| {
             let Some(name) = asked else { return Ok(None) };
             let found = signals.iter().position(|signal| signal.name == name);
@@ -194,8 +201,8 @@ impl Recording {
             found.map(Some).ok_or_else(missing)
         };
         let asked = (find(options.clock)?, find(options.data)?);
-        let mut wires =
-            choose(&signals, asked).ok_or(Unreadable::Signals(named.names.len().min(1)))?;
+        let lives = signals.iter().filter(|signal| signal.lives()).count();
+        let mut wires = choose(&signals, asked).ok_or(Unreadable::Signals(lives.min(1)))?;
         // What lies between two changes is a bound of what the recorder tells apart.
         let clocking = match named.clocking {
             Clocking::Timed(0) if finest < i64::MAX => Clocking::Timed(finest),

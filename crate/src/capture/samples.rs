@@ -93,6 +93,7 @@ impl Samples {
         self.line(&line, sink)?;
         Ok(Named {
             names: self.names(),
+            others: self.others(),
             clocking: self
                 .table
                 .as_ref()
@@ -123,6 +124,18 @@ impl Samples {
             _ => None,
         });
         names.collect()
+    }
+
+    /// Indexes of those that have held something else.
+    fn others(&self) -> Vec<usize> {
+        let columns = self.table.iter().flat_map(|table| &table.columns);
+        let others = columns.filter_map(|column| match column {
+            Column::Level {
+                signal, dead: true, ..
+            } => Some(*signal),
+            _ => None,
+        });
+        others.collect()
     }
 
     fn keep(&mut self, text: &[u8]) -> Result<(), Unreadable> {

@@ -97,7 +97,8 @@ pub fn read(text: &[u8], sink: &mut dyn FnMut(Change)) -> Result<Named, Unreadab
         let command = command.map_err(|error| {
             let placed = error
                 .get_ref()
-                .is_some_and(|inner| inner.is::<vcd::ParseError>());
+                .and_then(|inner| inner.downcast_ref::<vcd::ParseError>())
+                .is_some();
             Unreadable::Vcd(match placed {
                 true => error.to_string(),
                 false => alloc::format!("{error} at line {line}"),
@@ -169,6 +170,7 @@ pub fn read(text: &[u8], sink: &mut dyn FnMut(Change)) -> Result<Named, Unreadab
     }
     Ok(Named {
         names,
+        others: Vec::new(),
         clocking: match scale {
             Some(_) => Clocking::Timed(0),
             None => Clocking::Counted,

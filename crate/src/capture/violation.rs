@@ -45,7 +45,12 @@ pub enum ViolationKind {
     },
     /// The data line becomes high too early or too late after the frame.
     Timeout {
-        /// From the last falling edge; where it does not become high, to the end.
+        /// From the last falling edge.
+        measured: i64,
+    },
+    /// The data line does not become high after the frame.
+    NotReady {
+        /// From the last falling edge to the next frame, or to the end of the recording.
         measured: i64,
     },
     /// The clock rests within a frame for so long that the encoder gives the reading up.
@@ -205,6 +210,12 @@ impl fmt::Display for Violation {
                     Duration(measured)
                 )
             }
+            ViolationKind::NotReady { measured } => write!(
+                f,
+                "the data line is still low {} after the last falling edge: the encoder's \
+                 time-out is {timeout_text} ({source})",
+                Duration(measured)
+            ),
             ViolationKind::Aborted { half } => write!(
                 f,
                 "the clock rests for {} within the frame: longer than {timeout_text}, the encoder \

@@ -185,6 +185,12 @@ impl Signal {
         }
     }
 
+    /// Whether it ever has a level.
+    #[must_use]
+    pub const fn lives(&self) -> bool {
+        self.level.is_some()
+    }
+
     /// The level of the longest run.
     #[must_use]
     pub fn rests(&self) -> Option<bool> {
@@ -218,7 +224,7 @@ impl Signal {
 
     /// Whether it may be the other wire of the same pair.
     fn mirrors(&self, other: &Self) -> bool {
-        self.edges.abs_diff(other.edges) <= 2 && self.runs == other.runs
+        self.edges > 0 && self.edges == other.edges && self.runs == other.runs
     }
 }
 
@@ -229,7 +235,7 @@ impl Signal {
 pub(super) fn choose(signals: &[Signal], asked: (Option<usize>, Option<usize>)) -> Option<Wires> {
     let mut reasons = Vec::new();
     let mut clock = asked.0;
-    let mut data = asked.1;
+    let mut data = asked.1.filter(|_| asked.0 != asked.1);
     for index in [clock, data].into_iter().flatten() {
         reasons.extend(
             signals
@@ -239,10 +245,9 @@ pub(super) fn choose(signals: &[Signal], asked: (Option<usize>, Option<usize>)) 
     }
     // A pair of two wires has both names; the one that rests high is taken.
     let named = |names: &[&str], taken: Option<usize>| {
-        let called = signals
-            .iter()
-            .enumerate()
-            .filter(|(index, signal)| Some(*index) != taken && signal.is_called(names));
+        let called = signals.iter().enumerate().filter(|(index, signal)| {
+            Some(*index) != taken && signal.lives() && signal.is_called(names)
+        });
         called
             .max_by_key(|(index, signal)| {
                 (
@@ -289,7 +294,7 @@ pub(super) fn choose(signals: &[Signal], asked: (Option<usize>, Option<usize>)) 
             let others = signals
                 .iter()
                 .enumerate()
-                .filter(|(index, _)| Some(*index) != data);
+                .filter(|(index, signal)| Some(*index) != data && signal.lives());
             let (index, signal) = others.max_by_key(|(index, signal)| {
                 (
                     signal.edges.saturating_mul(signal.regularity()),
@@ -309,7 +314,7 @@ pub(super) fn choose(signals: &[Signal], asked: (Option<usize>, Option<usize>)) 
         Some(index) => index,
         None => {
             let others = signals.iter().enumerate().filter(|(index, signal)| {
-                *index != clock && !(signal.edges > 0 && signal.mirrors(chosen))
+                *index != clock && signal.lives() && !signal.mirrors(chosen)
             });
             let (index, signal) = others.max_by_key(|(index, signal)| {
                 let follows = signal.edges * FIFTHS <= chosen.edges * 5 + FIFTHS * 2;

@@ -194,8 +194,9 @@ const fn bare(profile: &Profile, idle: u32, tail: u32) -> Shape {
     }
 }
 
-/// Idle ones and acknowledge zeros in front of a start bit.
-fn preamble(bits: Bits<'_>) -> Option<(u32, u32)> {
+/// Idle ones and acknowledge zeros in front of a start bit; nothing where there is none.
+#[must_use]
+pub fn preamble(bits: Bits<'_>) -> Option<(u32, u32)> {
     let run = |from: usize, level: bool| {
         (from..bits.len())
             .take_while(|at| bits.bit(*at) == level)

@@ -3,9 +3,8 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use encoderscope::{
     capture::{
-        Capture, Clocked, Kind, Options, Reason, Recording, Unreadable, Violation, ViolationKind,
-        sniff,
-        wave::{Glitch, Long, Wave},
+        Capture, Clocked, Kind, Options, Reason, Recording, Unreadable, ViolationKind, sniff,
+        wave::Wave,
     },
     decode::Decoder,
     reading::Values,
@@ -16,11 +15,11 @@ use encoderscope_tests::{
     decoder,
 };
 
-const NS: i64 = 1_000;
-const US: i64 = 1_000_000;
+pub(crate) const NS: i64 = 1_000;
+pub(crate) const US: i64 = 1_000_000;
 
 /// Profiles of every clocked format at several widths.
-const PROFILES: &[&str] = &[
+pub(crate) const PROFILES: &[&str] = &[
     "format=ssi angle-bits=16 turns-bits=0",
     "format=ssi angle-bits=17",
     "format=ssi angle-bits=24",
@@ -37,7 +36,7 @@ const PROFILES: &[&str] = &[
 ];
 
 /// A few values, the extremes first.
-fn values(decoder: &Decoder) -> Vec<Values> {
+pub(crate) fn values(decoder: &Decoder) -> Vec<Values> {
     let profile = decoder.profile();
     let mask = |bits: u32| (1u64 << bits) - 1;
     let mut noise = Noise::new(7);
@@ -51,11 +50,11 @@ fn values(decoder: &Decoder) -> Vec<Values> {
     all.collect()
 }
 
-fn clean(decoder: &Decoder) -> Wave {
+pub(crate) fn clean(decoder: &Decoder) -> Wave {
     Wave::new(decoder.profile()).expect("a master clocks it")
 }
 
-fn read(decoder: &Decoder, wave: &Wave) -> Vec<Clocked> {
+pub(crate) fn read(decoder: &Decoder, wave: &Wave) -> Vec<Clocked> {
     let mut capture = Capture::new(decoder).expect("a master clocks it");
     for edge in wave.edges() {
         capture.push(edge);
@@ -67,7 +66,7 @@ fn read(decoder: &Decoder, wave: &Wave) -> Vec<Clocked> {
 }
 
 /// That the frames hold the values.
-fn decodes(decoder: &Decoder, frames: &[Clocked], expected: &[Values], case: &str) {
+pub(crate) fn decodes(decoder: &Decoder, frames: &[Clocked], expected: &[Values], case: &str) {
     assert_eq!(frames.len(), expected.len(), "{case}");
     let decoder = Decoder::new(Capture::new(decoder).unwrap().profile()).unwrap();
     for (frame, expected) in frames.iter().zip(expected) {
@@ -82,35 +81,12 @@ fn decodes(decoder: &Decoder, frames: &[Clocked], expected: &[Values], case: &st
     }
 }
 
-fn kinds(frames: &[Clocked]) -> Vec<(usize, Option<u32>, ViolationKind)> {
+pub(crate) fn kinds(frames: &[Clocked]) -> Vec<(usize, Option<u32>, ViolationKind)> {
     let all = frames.iter().enumerate().flat_map(|(index, frame)| {
         let found = frame.violations.iter();
         found.map(move |found| (index, found.clock, found.kind))
     });
     all.collect()
-}
-
-/// Three frames, the second clocked as `disturb` says.
-fn disturbed(decoder: &Decoder, disturb: impl Fn(&mut Wave)) -> Vec<Clocked> {
-    let mut wave = clean(decoder);
-    let usual = wave.clone();
-    for (index, values) in values(decoder).iter().skip(2).take(3).enumerate() {
-        if index == 1 {
-            disturb(&mut wave);
-        }
-        wave.frame(&decoder.encode(values));
-        if index == 1 {
-            wave.extra = usual.extra;
-            wave.long = usual.long;
-            wave.glitch = usual.glitch;
-            wave.pause = usual.pause;
-            wave.hertz = usual.hertz;
-            wave.first_low = usual.first_low;
-            wave.delay = usual.delay;
-            wave.stuck = usual.stuck;
-        }
-    }
-    read(decoder, &wave)
 }
 
 #[test]
@@ -205,327 +181,6 @@ fn changes(cuts: &[&[u8]]) -> (Vec<encoderscope::capture::Change>, Vec<String>) 
     }
     let named = samples.finish(&mut |change| changes.push(change)).unwrap();
     (changes, named.names)
-}
-
-#[test]
-fn a_clock_out_of_its_range_is_told_of_with_the_frame() {
-    for parameters in PROFILES {
-        let decoder = decoder(parameters);
-        let timing = decoder.profile().format.timing().unwrap();
-        for hertz in [timing.slowest * 9 / 10, timing.slowest / 2] {
-            let found = disturbed(&decoder, |wave| {
-                wave.hertz = hertz;
-                wave.pause = timing.pause * 8;
-                // The longest time-out there is, which a slow clock does not run into.
-                wave.timeout = timing.returns.1;
-            });
-            let [(1, None, ViolationKind::Slow { hertz: measured })] = kinds(&found)[..] else {
-                panic!("{parameters} {hertz}: {:?}", kinds(&found));
-            };
-            assert!((measured / f64::from(hertz) - 1.0).abs() < 0.001);
-        }
-        let hertz = timing.limit() * 11 / 10;
-        let found = disturbed(&decoder, |wave| {
-            wave.hertz = hertz;
-            wave.first_low = Some(500 * NS);
-            wave.delay = 5 * NS;
-        });
-        let [(1, None, ViolationKind::Fast { .. })] = kinds(&found)[..] else {
-            panic!("{parameters} {hertz}: {:?}", kinds(&found));
-        };
-    }
-}
-
-#[test]
-fn a_fast_ssi_clock_needs_a_long_first_low() {
-    let decoder = decoder("format=ssi angle-bits=16");
-    let low = |low: i64| {
-        disturbed(&decoder, |wave| {
-            wave.hertz = 4_000_000;
-            wave.first_low = Some(low);
-        })
-    };
-    assert_eq!(kinds(&low(500 * NS)), []);
-    let found = low(125 * NS);
-    assert_eq!(found[1].violations.len(), 1);
-    assert_eq!(
-        found[1].violations[0].to_string(),
-        "clock of 4 MHz with a first low of 125 ns: faster than 1.5 MHz needs a first low of \
-         500 ns (MPP and PT, SSI timing)"
-    );
-}
-
-#[test]
-fn a_short_pause_is_told_of_with_the_frame_behind_it() {
-    for parameters in PROFILES {
-        let decoder = decoder(parameters);
-        let timing = decoder.profile().format.timing().unwrap();
-        let over = timing.timeout.max(timing.returns.0) + US / 2;
-        for pause in [over, timing.pause * 97 / 100] {
-            let found = disturbed(&decoder, |wave| wave.pause = pause);
-            assert_eq!(
-                kinds(&found),
-                [(1, Some(1), ViolationKind::Pause { measured: pause })],
-                "{parameters}"
-            );
-        }
-    }
-    let decoder = decoder("format=ssi angle-bits=16");
-    let found = disturbed(&decoder, |wave| wave.pause = 12_400 * NS);
-    assert_eq!(
-        found[1].violations[0].to_string(),
-        "pause of 12.4 µs before this frame: shorter than t_P = 20 µs (MPP and PT, SSI timing)"
-    );
-    // So short that the encoder has not given the reading up: two frames all the same.
-    let found = disturbed(&decoder, |wave| wave.pause = 4 * US);
-    assert_eq!(found.len(), 3);
-    assert!(kinds(&found).contains(&(1, Some(1), ViolationKind::Pause { measured: 4 * US })));
-}
-
-#[test]
-fn clocks_too_few_or_too_many_are_counted() {
-    for parameters in PROFILES {
-        let decoder = decoder(parameters);
-        let biss = parameters.contains("biss");
-        let whole = disturbed(&decoder, |_| {})[1].clocks;
-        for extra in [-9, -2, -1, 1, 2, 3] {
-            let found = disturbed(&decoder, |wave| wave.extra = extra);
-            let falling = whole.checked_add_signed(extra).unwrap();
-            let kinds = kinds(&found);
-            assert_eq!(found[1].clocks, falling, "{parameters}");
-            if biss && extra > 0 {
-                assert_eq!(kinds, [], "{parameters} {extra}");
-                continue;
-            }
-            let [(1, Some(clock), ViolationKind::Clocks { needed, .. })] = kinds[..] else {
-                panic!("{parameters} {extra}: {kinds:?}");
-            };
-            assert_eq!((clock, needed), (falling, whole), "{parameters}");
-        }
-    }
-    let decoder = decoder("format=ssi-tree");
-    let found = disturbed(&decoder, |wave| wave.extra = -1);
-    assert_eq!(
-        found[1].violations[0].to_string(),
-        "25 falling edges for a 25-bit word give 24 bits: send 26 (P+F article, figure 2)"
-    );
-    // Twice the word is as it should be.
-    let found = disturbed(&decoder, |wave| wave.extra = 26);
-    assert_eq!(kinds(&found), []);
-}
-
-#[test]
-fn a_reading_given_up_is_told_from_its_rest() {
-    for parameters in PROFILES {
-        let decoder = decoder(parameters);
-        let timing = decoder.profile().format.timing().unwrap();
-        for level in [false, true] {
-            for clock in [4, 10] {
-                for lasts in [timing.timeout.max(timing.returns.1) + US, timing.pause * 3] {
-                    let found = disturbed(&decoder, |wave| {
-                        wave.long = Some(Long {
-                            clock,
-                            level,
-                            lasts,
-                        });
-                    });
-                    let case = format!("{parameters} {clock} {level} {lasts}");
-                    let aborted = (1, Some(clock), ViolationKind::Aborted { half: lasts });
-                    let kinds = kinds(&found);
-                    assert_eq!(found.len(), 4, "{case}");
-                    assert_eq!(kinds[0], aborted, "{case} {kinds:?}");
-                    assert_eq!(kinds[1], (2, Some(1), ViolationKind::Remainder), "{case}");
-                    assert_eq!(kinds.len(), 2, "{case} {kinds:?}");
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn glitches_are_left_out_and_told_of() {
-    for parameters in PROFILES {
-        let decoder = decoder(parameters);
-        for clock in [1, 2, 7, 12] {
-            for width in [5 * NS, 60 * NS] {
-                let found = disturbed(&decoder, |wave| {
-                    wave.glitch = Some(Glitch { clock, width });
-                });
-                let half = 500 * NS;
-                let glitch = ViolationKind::Glitch { width, half };
-                assert_eq!(kinds(&found), [(1, Some(clock), glitch)], "{parameters}");
-                let values: Vec<_> = values(&decoder).into_iter().skip(2).take(3).collect();
-                decodes(&decoder, &found, &values, parameters);
-            }
-        }
-    }
-}
-
-#[test]
-fn data_that_comes_when_it_is_read_is_late() {
-    for parameters in PROFILES {
-        let decoder = decoder(parameters);
-        for delay in [460 * NS, 500 * NS, 600 * NS, 900 * NS] {
-            let found = disturbed(&decoder, |wave| wave.delay = delay);
-            let late: Vec<_> = kinds(&found)
-                .into_iter()
-                .filter(|found| found.0 == 1)
-                .collect();
-            let [
-                (
-                    1,
-                    Some(_),
-                    ViolationKind::LateData {
-                        delay: seen,
-                        high,
-                        times,
-                    },
-                ),
-            ] = late[..]
-            else {
-                panic!("{parameters} {delay}: {late:?}");
-            };
-            assert_eq!((seen, high), (delay, 500 * NS), "{parameters}");
-            assert!(times > 1);
-            // A BiSS-C master compensates the delay.
-            if parameters.contains("biss") {
-                let values: Vec<_> = values(&decoder).into_iter().skip(2).take(3).collect();
-                decodes(&decoder, &found, &values, parameters);
-            }
-        }
-    }
-}
-
-#[test]
-fn an_acknowledge_of_another_length_is_named_and_the_frame_is_read() {
-    for (ack, other) in [(5, 4), (5, 10), (1, 2), (20, 1)] {
-        let profile = |ack: u32| decoder(&format!("format=biss-c angle-bits=17 ack-bits={ack}"));
-        let (expected, sent) = (profile(ack), profile(other));
-        let mut wave = clean(&expected);
-        let values = values(&expected);
-        for (index, values) in values.iter().enumerate() {
-            let sender = if index == 2 { &sent } else { &expected };
-            wave.frame(&sender.encode(values));
-        }
-        let found = read(&expected, &wave);
-        let kind = ViolationKind::Acknowledge {
-            bits: other,
-            expected: ack,
-            before: Some(ack),
-        };
-        assert_eq!(kinds(&found), [(2, Some(3), kind)]);
-        decodes(&expected, &found, &values, "acknowledge");
-    }
-}
-
-#[test]
-fn a_data_line_that_nobody_drives_is_stuck() {
-    for parameters in PROFILES {
-        let decoder = decoder(parameters);
-        for level in [false, true] {
-            let mut wave = clean(&decoder);
-            wave.stuck = Some(level);
-            for values in values(&decoder) {
-                wave.frame(&decoder.encode(&values));
-            }
-            let found = read(&decoder, &wave);
-            let stuck = ViolationKind::DataStuck { level };
-            // The first frame sees the line fall to its level at the start of the recording.
-            let expected: Vec<_> = (0..found.len()).map(|index| (index, None, stuck)).collect();
-            let skip = usize::from(!level);
-            assert_eq!(kinds(&found)[skip..], expected[skip..], "{parameters}");
-        }
-    }
-}
-
-#[test]
-fn a_data_line_that_returns_too_late_or_too_early_is_told_of() {
-    for (parameters, timeouts) in [
-        (
-            "format=ssi7 angle-bits=22",
-            [(18, false), (20, true), (22, false)],
-        ),
-        ("format=ssi-tree", [(9, false), (12, true), (31, false)]),
-        (
-            "format=ssi angle-bits=16",
-            [(2, true), (10, true), (21, false)],
-        ),
-        (
-            "format=biss-c angle-bits=17",
-            [(2, true), (15, true), (25, false)],
-        ),
-    ] {
-        let decoder = decoder(parameters);
-        for (timeout, good) in timeouts {
-            let mut wave = clean(&decoder);
-            wave.timeout = timeout * US;
-            for values in values(&decoder) {
-                wave.frame(&decoder.encode(&values));
-            }
-            let found = kinds(&read(&decoder, &wave));
-            let measured = timeout * US;
-            let all = found
-                .iter()
-                .all(|found| found.2 == ViolationKind::Timeout { measured });
-            assert!(all, "{parameters} {timeout} {found:?}");
-            assert_eq!(
-                found.len(),
-                if good { 0 } else { 6 },
-                "{parameters} {timeout}"
-            );
-        }
-    }
-}
-
-#[test]
-fn the_gap_of_ssi7_shows_the_error_flag() {
-    let decoder = decoder("format=ssi7 angle-bits=22");
-    for behind in [false, true] {
-        let mut wave = clean(&decoder);
-        wave.behind = behind;
-        for values in values(&decoder) {
-            wave.frame(&decoder.encode(&values));
-        }
-        let found = read(&decoder, &wave);
-        assert_eq!(kinds(&found), []);
-        assert!(found.iter().all(|frame| frame.gap == Some(behind)));
-    }
-}
-
-#[test]
-fn a_recording_may_begin_and_end_within_a_frame() {
-    let decoder = decoder("format=ssi angle-bits=16");
-    let mut wave = clean(&decoder);
-    for values in values(&decoder).iter().take(2) {
-        wave.frame(&decoder.encode(values));
-    }
-    let edges = wave.edges();
-    for from in [20, 21, 40] {
-        for left in [10, 11, 33] {
-            let mut capture = Capture::new(&decoder).unwrap();
-            let part = &edges[from..edges.len() - left];
-            for edge in part {
-                capture.push(*edge);
-            }
-            capture.finish(part.last().unwrap().time);
-            let found: Vec<Clocked> = std::iter::from_fn(|| capture.poll()).collect();
-            let cut = |index| (index, None, ViolationKind::Cut);
-            assert_eq!(kinds(&found), [cut(0), cut(1)], "{from} {left}");
-        }
-    }
-}
-
-#[test]
-fn a_clock_that_never_pauses_is_cut() {
-    let decoder = decoder("format=ssi angle-bits=16");
-    let mut wave = clean(&decoder);
-    wave.extra = 20_000;
-    wave.frame(&decoder.encode(&Values::default()));
-    let found = read(&decoder, &wave);
-    let endless = kinds(&found).into_iter();
-    let endless = endless.filter(|found| matches!(found.2, ViolationKind::Endless { .. }));
-    assert_eq!(endless.count(), 4);
-    assert!(found.iter().all(|frame| frame.clocks <= 4097));
 }
 
 #[test]
@@ -733,28 +388,25 @@ fn wide_signals_reals_and_unknown_levels_are_passed_over() {
     assert_eq!(found.frames[0].seconds(), 100e-6);
 }
 
-/// Every text that a violation can have names the measured value and the limit.
 #[test]
-fn violations_read_as_sentences() {
-    let decoder = decoder("format=ssi7");
-    let found = disturbed(&decoder, |wave| {
-        wave.long = Some(Long {
-            clock: 12,
-            level: true,
-            lasts: 30 * US,
-        });
-    });
-    let text: Vec<String> = found
-        .iter()
-        .flat_map(|frame| frame.violations.iter().map(Violation::to_string))
-        .collect();
+fn columns_of_more_than_0_and_1_are_no_wires() {
+    let decoder = decoder("format=ssi-tree turns-bits=0 angle-bits=2 frame-bits=2");
+    let text = "state[3:0],x,Time (ns),y,volts\n0,1,0,1,0.1\n1,1,50000,0,0.2\n0,1,51000,1,0.3\n\
+                1,1,52000,0,1\n0,0,53000,1,0\n1,0,54000,0,1\n0,0,55000,1,0\n7,1,72000,1,0\n\
+                0,,99000,,5\n";
+    let found =
+        Recording::read(text.as_bytes(), Kind::Samples, &decoder, Options::default()).unwrap();
     assert_eq!(
-        text,
-        [
-            "the clock rests for 30 µs within the frame: longer than T_mu = 20 ± 1 µs, the \
-             encoder gives the reading up (IP-75, 5.4.1)",
-            "the rest of the clocks of the reading given up before: they start a reading of their \
-             own, cut short"
-        ]
+        (
+            found.wires.clock.name.as_str(),
+            found.wires.data.name.as_str()
+        ),
+        ("y", "x")
+    );
+    assert_eq!(found.frames.len(), 1);
+    assert_eq!(found.frames[0].bits.as_bits().bytes(), [0b1000_0000]);
+    assert_eq!(
+        (found.frames[0].seconds(), kinds(&found.frames)),
+        (5e-5, vec![])
     );
 }

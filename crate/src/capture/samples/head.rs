@@ -251,8 +251,7 @@ impl Table {
             .zip(line.split(|byte| *byte == self.separator))
         {
             match column {
-                Column::Other => {}
-                Column::Level { dead: true, .. } => {}
+                Column::Other | Column::Level { dead: true, .. } => {}
                 Column::Level {
                     signal,
                     level,
