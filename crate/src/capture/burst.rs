@@ -208,7 +208,7 @@ impl Burst {
             let low = rises
                 .first()
                 .zip(first)
-                .map_or(0, |(rise, fall)| rise - fall);
+                .map_or(0, |(rise, fall)| rise.saturating_sub(fall));
             if let Some(kind) = of_frequency(rules, hertz, low) {
                 found(first.unwrap_or(start), None, kind);
             }
@@ -281,7 +281,7 @@ impl Burst {
             return is_late(measured).then_some((end, ViolationKind::NotReady { measured }));
         }
         // What changes within half a period of the last rising edge follows the last bit.
-        let high = last_rise - last_fall;
+        let high = last_rise.saturating_sub(last_fall);
         let measured = last.time.saturating_sub(last_fall);
         let is_early = measured.saturating_add(margin) < part(least, 100 - TOLERANCE);
         let behind = last.time > last_rise.saturating_add(high);
@@ -306,7 +306,8 @@ impl Burst {
                 continue;
             };
             changes += 1;
-            let (delay, high) = (step.time - rise, fall.saturating_sub(*rise));
+            let delay = step.time.saturating_sub(*rise);
+            let high = fall.saturating_sub(*rise);
             let seen = rules.is_timed() && rules.resolution().saturating_mul(4) <= high;
             if seen && delay.saturating_mul(8) > high.saturating_mul(7) {
                 let late = late.get_or_insert(Late {

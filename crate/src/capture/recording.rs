@@ -13,6 +13,8 @@ use core::fmt;
 
 /// Signals of a recording that are read.
 pub(super) const MOST_SIGNALS: usize = 1024;
+/// Frames of a recording that are kept.
+const MOST_FRAMES: usize = 500_000;
 
 /// What a recording is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +45,8 @@ pub enum Unreadable {
     Signals(usize),
     /// More signals than are read.
     TooManySignals,
+    /// More frames than are kept.
+    TooManyFrames,
     /// A signal that was asked for, and those there are.
     NoSuchSignal(String, Vec<String>),
     /// The time of a line cannot be read, or is out of all bounds.
@@ -73,6 +77,10 @@ impl fmt::Display for Unreadable {
             Self::TooManySignals => write!(
                 f,
                 "more than {MOST_SIGNALS} signals: export the clock and the data only"
+            ),
+            Self::TooManyFrames => write!(
+                f,
+                "more than {MOST_FRAMES} frames: export a shorter part of the recording"
             ),
             Self::NoSuchSignal(name, known) => {
                 write!(f, "no signal {name:?}; there are: {}", known.join(", "))
@@ -271,7 +279,10 @@ fn extract(
     let mut drain = |capture: &mut Capture, frames: &mut Vec<Clocked>| {
         while let Some((frame, high)) = capture.next() {
             *low += usize::from(!high);
-            frames.push(frame);
+            // One more shows that there are too many.
+            if frames.len() <= MOST_FRAMES {
+                frames.push(frame);
+            }
         }
     };
     run(&mut |change| {
@@ -288,5 +299,8 @@ fn extract(
     })?;
     capture.finish(end);
     drain(&mut capture, &mut frames);
+    if frames.len() > MOST_FRAMES {
+        return Err(Unreadable::TooManyFrames);
+    }
     Ok((frames, capture.stray()))
 }

@@ -107,7 +107,9 @@ impl Wave {
     /// When the last frame and the time-out behind it are over.
     #[must_use]
     pub const fn now(&self) -> i64 {
-        self.now + MICROSECOND + self.timeout
+        self.now
+            .saturating_add(MICROSECOND)
+            .saturating_add(self.timeout)
     }
 
     /// All edges in the order of their times, the levels at the start first.
@@ -115,7 +117,7 @@ impl Wave {
     pub fn edges(&self) -> Vec<Edge> {
         let mut edges = self.edges.clone();
         if let Some(fell) = self.encoder.fell {
-            let time = fell + self.timeout;
+            let time = fell.saturating_add(self.timeout);
             edges.push(Edge {
                 time,
                 wire: Wire::Data,
@@ -142,21 +144,22 @@ impl Wave {
             Some(long) if i64::from(long.clock) == clock && long.level == level => long.lasts,
             _ => usual,
         };
-        let mut time = self.now + self.pause;
+        let mut time = self.now.saturating_add(self.pause);
         let mut steps = Vec::new();
         for clock in 1..=clocks {
             let first = if clock == 1 { self.first_low } else { None };
-            let rise = time + lasts(clock, false, first.unwrap_or(half));
+            let rise = time.saturating_add(lasts(clock, false, first.unwrap_or(half)));
             steps.push((time, rise));
-            time = rise + lasts(clock, true, half);
+            time = rise.saturating_add(lasts(clock, true, half));
         }
         for ((fall, rise), clock) in steps.into_iter().zip(1u32..) {
             self.fall(fall);
             self.rise(rise, bits, idle);
             if let Some(glitch) = self.glitch.filter(|glitch| glitch.clock == clock) {
-                let start = rise + half / 2;
+                let start = rise.saturating_add(half / 2);
                 self.edge(start, Wire::Clock, false);
-                self.edge(start + glitch.width, Wire::Clock, true);
+                let end = start.saturating_add(glitch.width);
+                self.edge(end, Wire::Clock, true);
             }
             self.now = rise;
         }
@@ -185,9 +188,9 @@ impl Wave {
     fn fall(&mut self, time: i64) {
         self.edge(time, Wire::Clock, false);
         if let Some(fell) = self.encoder.fell
-            && time - fell >= self.timeout
+            && time.saturating_sub(fell) >= self.timeout
         {
-            self.data(fell + self.timeout, true);
+            self.data(fell.saturating_add(self.timeout), true);
             self.encoder.rises = 0;
         }
         self.encoder.fell = Some(time);
@@ -213,6 +216,6 @@ impl Wave {
             true => bits.bit(idle + again),
             false => self.behind,
         };
-        self.data(time + self.delay, level);
+        self.data(time.saturating_add(self.delay), level);
     }
 }

@@ -410,3 +410,82 @@ fn columns_of_more_than_0_and_1_are_no_wires() {
         (5e-5, vec![])
     );
 }
+
+#[test]
+fn what_a_user_says_of_the_wires_goes_before_their_names() {
+    let decoder = decoder("format=ssi-tree");
+    let mut wave = clean(&decoder);
+    for values in values(&decoder) {
+        wave.frame(&decoder.encode(&values));
+    }
+    let text = written(&wave.edges(), wave.now(), Writing::Saleae);
+    let text = text.replacen("Channel 0,Channel 1", "data,clk", 1);
+    let asked = |clock, data| {
+        let options = Options {
+            clock: Some(clock),
+            data,
+            sample: None,
+        };
+        Recording::read(text.as_bytes(), Kind::Samples, &decoder, options).unwrap()
+    };
+    let swapped = |found: &Recording| {
+        let reasons = found.wires.reasons.iter();
+        let told: Vec<String> = reasons.map(ToString::to_string).collect();
+        told.contains(
+            &"clock and data are swapped: data has the regular bursts of a clock, clk has not"
+                .into(),
+        )
+    };
+    let right = asked("data", Some("clk"));
+    let wrong = asked("clk", Some("data"));
+    assert_eq!((swapped(&right), swapped(&wrong)), (false, true));
+    // Both wires cannot be one signal.
+    let both = asked("data", Some("data"));
+    for found in [right, wrong, both] {
+        assert_eq!(
+            (
+                found.wires.clock.name.as_str(),
+                found.wires.data.name.as_str()
+            ),
+            ("data", "clk")
+        );
+        assert_eq!(kinds(&found.frames), []);
+        decodes(&decoder, &found.frames, &values(&decoder), "asked");
+    }
+}
+
+#[test]
+fn a_wire_that_never_changes_is_told_of() {
+    let decoder = decoder("format=ssi");
+    let text = "Time [s],clk,data\n0,1,0\n0.001,1,0\n0.002,1,0\n";
+    let found =
+        Recording::read(text.as_bytes(), Kind::Samples, &decoder, Options::default()).unwrap();
+    let reasons: Vec<String> = found
+        .wires
+        .reasons
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert_eq!(
+        reasons[2..],
+        [
+            "clk never changes, it stays 1",
+            "data never changes, it stays 0"
+        ]
+    );
+    assert_eq!(found.frames, []);
+}
+
+#[test]
+fn frames_without_end_are_refused() {
+    let decoder = decoder("format=ssi");
+    let mut text =
+        String::from("$timescale 1 us $end $var wire 1 ! clk $end $var wire 1 % d $end\n");
+    text.push_str("#0 1! 1%\n");
+    for frame in 1..500_003 {
+        let at = frame * 100;
+        text.push_str(&format!("#{at} 0!\n#{} 1!\n", at + 1));
+    }
+    let found = Recording::read(text.as_bytes(), Kind::Vcd, &decoder, Options::default());
+    assert_eq!(found.unwrap_err(), Unreadable::TooManyFrames);
+}

@@ -426,3 +426,40 @@ fn a_clock_that_rests_low_is_told_of_with_each_frame() {
         }
     }
 }
+
+#[test]
+fn a_glitch_in_the_pause_is_told_of_with_the_next_frame() {
+    for parameters in PROFILES {
+        let decoder = decoder(parameters);
+        let mut wave = clean(&decoder);
+        let values = values(&decoder);
+        for values in &values[2..4] {
+            wave.frame(&decoder.encode(values));
+        }
+        let mut edges = wave.edges();
+        let falls = edges
+            .iter()
+            .filter(|edge| edge.wire == Wire::Clock && !edge.level);
+        let falls: Vec<i64> = falls.map(|edge| edge.time).collect();
+        // Well behind the first frame, and well before the second.
+        let time = falls[falls.len() / 2] - wave.pause / 3;
+        let pulse = |time, level| Edge {
+            time,
+            wire: Wire::Clock,
+            level,
+        };
+        edges.extend([pulse(time, false), pulse(time + 30 * NS, true)]);
+        edges.sort_by_key(|edge| edge.time);
+        let mut capture = Capture::new(&decoder).unwrap();
+        edges.into_iter().for_each(|edge| capture.push(edge));
+        capture.finish(wave.now());
+        let frames: Vec<Clocked> = std::iter::from_fn(|| capture.poll()).collect();
+        let glitch = ViolationKind::Glitch {
+            width: 30 * NS,
+            half: 500 * NS,
+        };
+        assert_eq!(kinds(&frames), [(1, Some(1), glitch)], "{parameters}");
+        assert_eq!(frames[1].violations[0].time, time);
+        decodes(&decoder, &frames, &values[2..4], parameters);
+    }
+}
