@@ -55,6 +55,8 @@ use burst::{Burst, Judged};
 
 /// Clock edges of a burst that are kept: a clock that does not pause is cut here.
 const MOST_EDGES: usize = 8192;
+/// Violations that are kept where there is no frame to tell them of.
+const MOST_STRAY: usize = 1024;
 /// A silence of more than so many half periods is no part of a burst.
 const PAUSE_FACTOR: i64 = 2;
 
@@ -299,6 +301,7 @@ impl Capture {
         if let Some(last) = self.burst.last_edge() {
             let gap = edge.time.saturating_sub(last);
             if self.burst.edges() >= MOST_EDGES {
+                self.stray.truncate(MOST_STRAY);
                 self.stray.push(Violation {
                     time: edge.time,
                     clock: None,
@@ -325,6 +328,7 @@ impl Capture {
         let Some(first) = judged.first else {
             // Nothing but glitches: told of with the next frame.
             self.stray.append(&mut judged.frame.violations);
+            self.stray.truncate(MOST_STRAY);
             return;
         };
         self.half = half;

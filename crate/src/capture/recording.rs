@@ -14,7 +14,7 @@ use core::fmt;
 /// Signals of a recording that are read.
 pub(super) const MOST_SIGNALS: usize = 1024;
 /// Frames of a recording that are kept.
-const MOST_FRAMES: usize = 500_000;
+const MOST_FRAMES: usize = 200_000;
 
 /// What a recording is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
