@@ -14,12 +14,14 @@ pub mod ssi;
 pub mod ssi7;
 pub mod ssi_tree;
 pub mod t485;
+pub mod timing;
 
 use crate::{
     layout::{StatusBit, layout},
     profile::Profile,
 };
 use alloc::{string::String, vec::Vec};
+use timing::Timing;
 
 /// A wire format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,6 +174,18 @@ impl Format {
             Self::Asi1 => Some(asi1::INTERVAL),
             Self::Asi4 => Some(asi4::INTERVAL),
             Self::Own => Some(own::INTERVAL),
+            _ => None,
+        }
+    }
+
+    /// What its manual asks of clock and pause, where a master clocks the frames out.
+    #[must_use]
+    pub const fn timing(self) -> Option<&'static Timing> {
+        match self {
+            Self::Ssi => Some(&ssi::TIMING),
+            Self::BissC => Some(&biss_c::TIMING),
+            Self::Ssi7 => Some(&ssi7::TIMING),
+            Self::SsiTree => Some(&ssi_tree::TIMING),
             _ => None,
         }
     }

@@ -3,6 +3,7 @@
 //! The stages, in the order the data takes them:
 //!
 //! - [`dump`]: pasted text to bytes and bits;
+//! - [`capture`]: edges that a logic analyser has recorded to frames, with the timing checked;
 //! - [`framing`]: bytes, cut anyhow, into frames and skips;
 //! - [`decode`]: a [`decode::Frame`] is bits and the layout that reads them;
 //! - [`reading`]: what the shaft does, from good frames only;
@@ -25,9 +26,12 @@
 #![forbid(unsafe_code)]
 
 extern crate alloc;
+#[cfg(feature = "vcd")]
+extern crate std;
 
 pub mod adapter;
 pub mod bits;
+pub mod capture;
 pub mod check;
 pub mod crc_search;
 pub mod decode;

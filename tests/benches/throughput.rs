@@ -1,4 +1,5 @@
-//! How fast the core reads a stream: raw bytes a second, framing, checks and readings included.
+//! How fast the core reads a stream: raw bytes a second, framing, checks and readings included;
+//! and how fast it reads recordings of clock and data, bytes of their text a second.
 //!
 //! `cargo bench -p encoderscope-tests`; the limit beside it only adds the bytes up.
 #![allow(missing_docs)]
@@ -13,8 +14,16 @@ fn main() {
 
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
-    use encoderscope::{decode::Decoder, framing::Framer, reading::Values};
-    use encoderscope_tests::decoder;
+    use encoderscope::{
+        capture::{Options, Recording, sniff, wave::Wave},
+        decode::Decoder,
+        framing::Framer,
+        reading::Values,
+    };
+    use encoderscope_tests::{
+        captures::{Writing, written},
+        decoder,
+    };
     use std::{hint::black_box, time::Instant};
 
     const BYTES: usize = 16_000_000;
@@ -41,17 +50,64 @@ mod native {
             }
             let decoder = decoder(parameters);
             let bytes = stream(&decoder);
-            let sum = best(|| {
-                u64::from(
-                    black_box(&bytes)
-                        .iter()
-                        .fold(0u32, |sum, byte| sum.wrapping_add((*byte).into())),
-                )
-            });
-            let read = best(|| read(&decoder, black_box(&bytes)));
-            let rate = |seconds: f64| bytes.len() as f64 / seconds / 1e6;
-            println!("{parameters:<28} {:>10.0} {:>16.3}", rate(read), sum / read);
+            report(parameters, &bytes, |bytes| read(&decoder, bytes));
         }
+        for (name, writing) in [
+            ("capture vcd", Writing::Vcd),
+            ("capture saleae", Writing::Saleae),
+            ("capture sigrok csv", Writing::Sigrok(24)),
+        ] {
+            let wanted = std::env::args()
+                .skip(1)
+                .filter(|word| !word.starts_with('-'));
+            if !wanted.into_iter().all(|word| name.contains(&word)) {
+                continue;
+            }
+            let decoder = decoder("format=ssi angle-bits=17");
+            let text = recording(&decoder, writing);
+            report(name, text.as_bytes(), |text| recorded(&decoder, text));
+        }
+    }
+
+    fn report(name: &str, bytes: &[u8], read: impl Fn(&[u8]) -> u64) {
+        let sum = best(|| {
+            u64::from(
+                black_box(bytes)
+                    .iter()
+                    .fold(0u32, |sum, byte| sum.wrapping_add((*byte).into())),
+            )
+        });
+        let read = best(|| read(black_box(bytes)));
+        let rate = |seconds: f64| bytes.len() as f64 / seconds / 1e6;
+        println!("{name:<28} {:>10.0} {:>16.3}", rate(read), sum / read);
+    }
+
+    /// A recording of a shaft that turns.
+    fn recording(decoder: &Decoder, writing: Writing) -> String {
+        let mut wave = Wave::new(decoder.profile()).expect("a master clocks it");
+        let frames = match writing {
+            Writing::Sigrok(_) => 1_000,
+            _ => 4_000,
+        };
+        for index in 0..frames {
+            let values = Values {
+                turns: Some(index / 100),
+                angle: Some(index as u64 * 1_311 % (1 << 17)),
+                ..Values::default()
+            };
+            wave.frame(&decoder.encode(&values));
+        }
+        written(&wave.edges(), wave.now(), writing)
+    }
+
+    /// Reads a recording; returns something that depends on all of it.
+    fn recorded(decoder: &Decoder, text: &[u8]) -> u64 {
+        let kind = sniff(text.get(..4_096).unwrap_or(text)).expect("a recording");
+        let found = Recording::read(text, kind, decoder, Options::default()).expect("readable");
+        assert!(found.frames.len() >= 1_000);
+        assert!(found.frames.iter().all(|frame| frame.violations.is_empty()));
+        let clocks = found.frames.iter().map(|frame| u64::from(frame.clocks));
+        clocks.sum()
     }
 
     /// A shaft that turns through many turns.

@@ -4,13 +4,13 @@
 #   tests/fuzz/run.sh decode 600     fuzzes for ten minutes, then merges what it has found
 #   tests/fuzz/run.sh session 0      only minimises the corpus
 #
-# Targets: decode detect framing session (tests/src/fuzz). A corpus is a text file, one input a
+# Targets: capture decode detect framing session (tests/src/fuzz). A corpus is a text file, one input a
 # line in hexadecimal, which the ordinary tests replay. Of its inputs a run keeps as few as reach
 # all code that is reached, and those below a remark (#) anyway: they once broke a law. An input
 # that breaks one is printed as such a line. libFuzzer needs a C++ compiler.
 set -euo pipefail
 cd "$(dirname "$0")"
-target=${1:?a target: decode detect framing session}
+target=${1:?a target: capture decode detect framing session}
 seconds=${2:?seconds}
 corpus=$PWD/corpus/$target.txt
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/../../target}

@@ -3,11 +3,13 @@
 //! A fuzzer looks for bytes that break them (`tests/fuzz`); the tests run them over what it has
 //! found and over noise. Each panics where a law is broken.
 
+mod capture;
 mod decode;
 mod detect;
 mod framing;
 mod session;
 
+pub use capture::capture;
 pub use decode::decode;
 pub use detect::detect;
 pub use framing::framing;

@@ -1,5 +1,6 @@
 //! What the tests of the core share.
 
+pub mod captures;
 pub mod fuzz;
 
 use encoderscope::{

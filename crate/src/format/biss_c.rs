@@ -21,7 +21,10 @@
 //! CRC; their own status table and frame lengths fit only error b13, warning b12, status
 //! b11…b6, CRC b5…b0. The CRC-6 polynomial is x⁶+x+1, not x⁶+x⁵+1.
 
-use super::{Format, Limits, Link, STATUS, Spec};
+use super::{
+    Format, Limits, Link, STATUS, Spec,
+    timing::{Beyond, MICROSECOND, Timing, Words},
+};
 use crate::{
     bits::Bits,
     check::Checksum,
@@ -56,6 +59,27 @@ pub const SPEC: Spec = Spec {
         ..Profile::base(Format::BissC)
     },
 };
+
+/// Clock and pause (MPP and PT, "BISS-C", timing parameters and note 1).
+pub const TIMING: Timing = Timing {
+    source: "MPP and PT, BiSS-C timing",
+    slowest: 120_000,
+    fastest: 2_500_000,
+    beyond: Beyond::Compensated {
+        fastest: 10_000_000,
+    },
+    timeout: 10 * MICROSECOND,
+    // Only a typical value is given, but it must be over when the pause is.
+    returns: (0, 20 * MICROSECOND),
+    timeout_text: "t_M = 10 µs",
+    pause: 20 * MICROSECOND,
+    pause_text: "t_P = 20 µs",
+    words: Words::Once,
+};
+
+/// Clocks at whose falling edges the line is still idle: the encoder pulls it low at the second
+/// rising edge (MPP and PT, "BISS-C").
+pub const IDLE_CLOCKS: u32 = 2;
 
 layout! {
     /// BiSS-C frame with what stands around it in a dump.
@@ -183,8 +207,9 @@ const fn bare(profile: &Profile, idle: u32, tail: u32) -> Shape {
     }
 }
 
-/// Idle ones and acknowledge zeros in front of a start bit.
-fn preamble(bits: Bits<'_>) -> Option<(u32, u32)> {
+/// Idle ones and acknowledge zeros in front of a start bit; nothing where there is none.
+#[must_use]
+pub fn preamble(bits: Bits<'_>) -> Option<(u32, u32)> {
     let run = |from: usize, level: bool| {
         (from..bits.len())
             .take_while(|at| bits.bit(*at) == level)

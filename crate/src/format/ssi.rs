@@ -20,7 +20,10 @@
 //! Where the manuals mislead: MPP's row calls b5…b0 "1 bit", there are six; the row "t_CL 400
 //! ns…14 µs" is the clock's period and contradicts the row of frequencies, which is right.
 
-use super::{Format, HEALTH, Limits, Link, Spec};
+use super::{
+    Format, HEALTH, Limits, Link, Spec,
+    timing::{Beyond, MICROSECOND, NANOSECOND, Timing, Words},
+};
 use crate::{
     bits::Bits,
     decode::Shapes,
@@ -42,6 +45,24 @@ pub const SPEC: Spec = Spec {
         frame: (0, 0),
     },
     default: Profile::base(Format::Ssi),
+};
+
+/// Clock and pause (MPP and PT, "SSI", timing parameters and note 1).
+pub const TIMING: Timing = Timing {
+    source: "MPP and PT, SSI timing",
+    slowest: 110_000,
+    fastest: 1_500_000,
+    beyond: Beyond::FirstLow {
+        fastest: 10_000_000,
+        low: 500 * NANOSECOND,
+    },
+    timeout: 10 * MICROSECOND,
+    // Only a typical value is given, but it must be over when the pause is.
+    returns: (0, 20 * MICROSECOND),
+    timeout_text: "t_M = 10 µs",
+    pause: 20 * MICROSECOND,
+    pause_text: "t_P = 20 µs",
+    words: Words::Once,
 };
 
 layout! {

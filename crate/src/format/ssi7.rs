@@ -23,6 +23,7 @@
 use super::{
     Format, Limits, Link, Spec,
     ssi::{AFTER, BEFORE},
+    timing::{Beyond, MICROSECOND, Timing, Words},
 };
 use crate::{
     check::Checksum,
@@ -49,6 +50,20 @@ pub const SPEC: Spec = Spec {
         frame_bits: 30,
         ..Profile::base(Format::Ssi7)
     },
+};
+
+/// Clock and pause (IP-75, 5.4.1, figure 8 and its notes).
+pub const TIMING: Timing = Timing {
+    source: "IP-75, 5.4.1",
+    slowest: 100_000,
+    fastest: 2_000_000,
+    beyond: Beyond::Never,
+    timeout: 20 * MICROSECOND,
+    returns: (19 * MICROSECOND, 21 * MICROSECOND),
+    timeout_text: "T_mu = 20 ± 1 µs",
+    pause: 21 * MICROSECOND,
+    pause_text: "T_mu = 20 ± 1 µs, which the gap must exceed",
+    words: Words::Once,
 };
 
 /// Width of the position field, PD.

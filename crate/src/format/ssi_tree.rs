@@ -25,6 +25,7 @@
 use super::{
     Format, Limits, Link, Spec,
     ssi::{AFTER, BEFORE, shapes as plain_shapes, with_spare},
+    timing::{Beyond, MICROSECOND, Timing, Words},
 };
 use crate::{
     bits::Bits,
@@ -64,6 +65,20 @@ pub const SPEC: Spec = Spec {
         frame_bits: 25,
         ..Profile::base(Format::SsiTree)
     },
+};
+
+/// Clock and pause (P+F article, figure 2, and "0.1…1.5 Mbit/s").
+pub const TIMING: Timing = Timing {
+    source: "P+F article, figure 2",
+    slowest: 100_000,
+    fastest: 1_500_000,
+    beyond: Beyond::Never,
+    timeout: 20 * MICROSECOND,
+    returns: (10 * MICROSECOND, 30 * MICROSECOND),
+    timeout_text: "t_m = 20 ± 10 µs",
+    pause: 30 * MICROSECOND,
+    pause_text: "t_m = 20 ± 10 µs, which the pause must exceed",
+    words: Words::Ring,
 };
 
 /// Columns to the left of the axis.

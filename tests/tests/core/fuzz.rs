@@ -20,6 +20,15 @@ fn replay(target: fn(&[u8]), corpus: &str, noisy: u64) {
 }
 
 #[test]
+fn captures_hold_their_laws() {
+    replay(
+        fuzz::capture,
+        include_str!("../../fuzz/corpus/capture.txt"),
+        2_000,
+    );
+}
+
+#[test]
 fn decoding_holds_its_laws() {
     replay(
         fuzz::decode,

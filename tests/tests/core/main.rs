@@ -4,6 +4,9 @@
 #[cfg(target_arch = "wasm32")]
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
+mod captures;
+mod captures_files;
+mod captures_timing;
 mod crc_search;
 mod detection;
 mod doctor;

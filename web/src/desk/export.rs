@@ -6,6 +6,7 @@ use crate::{
     link,
     message::{FileKind, FromDesk},
 };
+use encoderscope::export::table::Table;
 use js_sys::Array;
 use wasm_bindgen::JsValue;
 use web_sys::{Blob, BlobPropertyBag};
@@ -23,7 +24,7 @@ impl Desk {
         wasm_bindgen_futures::spawn_local(async move {
             let parts = match kind {
                 FileKind::Recording => desk.recording().await,
-                FileKind::Csv | FileKind::JsonLines => desk.table(job).await,
+                FileKind::Csv | FileKind::JsonLines => desk.table(kind, job).await,
             };
             let options = BlobPropertyBag::new();
             options.set_type("text/plain;charset=utf-8");
@@ -38,14 +39,23 @@ impl Desk {
     }
 
     /// The rows that are shown, in the order in which they are shown.
-    async fn table(&self, job: u32) -> Result<Array, String> {
+    async fn table(&self, kind: FileKind, job: u32) -> Result<Array, String> {
         let parts = Array::new();
+        let table = self.look(|sheet, _| Table::new(sheet.decoder()));
+        let table = table.filter(|_| kind == FileKind::Csv);
+        if let Some(table) = &table {
+            parts.push(&JsValue::from_str(&table.header()));
+        }
         let mut place = 0;
         loop {
             let text = self.look(|sheet, dump| {
                 let rows = place..(place + ROWS).min(sheet.shown());
                 let rows = rows.filter_map(|place| sheet.row(dump, sheet.shown_at(place)?));
-                (rows::lines(rows), place >= sheet.shown())
+                let text = match &table {
+                    Some(table) => rows::csv_lines(table, rows),
+                    None => rows::json_lines(rows),
+                };
+                (text, place >= sheet.shown())
             });
             let Some((text, false)) = text else {
                 return Ok(parts);

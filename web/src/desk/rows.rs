@@ -6,6 +6,7 @@ use encoderscope::{
     decode::{Decoded, Frame},
     dump::Direction,
     explain::{Note, degrees_text, grouped},
+    export::table::Table,
     format::Medium,
     framing::Why,
     record::hex,
@@ -205,8 +206,8 @@ pub(super) fn explained(row: &Row<'_>, medium: Medium) -> Explained {
     }
 }
 
-/// Rows as lines of a file.
-pub(super) fn lines<'a>(rows: impl Iterator<Item = Row<'a>>) -> String {
+/// Rows as objects, one a line.
+pub(super) fn json_lines<'a>(rows: impl Iterator<Item = Row<'a>>) -> String {
     let mut out = String::new();
     for row in rows {
         let Decoded::Frame(frame) = &row.decoded else {
@@ -220,6 +221,15 @@ pub(super) fn lines<'a>(rows: impl Iterator<Item = Row<'a>>) -> String {
         out.push('\n');
     }
     out
+}
+
+/// Rows as lines of a table.
+pub(super) fn csv_lines<'a>(table: &Table, rows: impl Iterator<Item = Row<'a>>) -> String {
+    rows.map(|row| match &row.decoded {
+        Decoded::Frame(frame) => table.frame(frame, row.time),
+        Decoded::Skip { start, bits, why } => table.skip(*start, *bits, *why, row.time),
+    })
+    .collect()
 }
 
 /// Sixteen bytes a line.

@@ -1,0 +1,311 @@
+//! What is wrong with the timing of a capture, and where.
+
+use crate::format::timing::{MICROSECOND, NANOSECOND, SECOND, Timing, Words};
+use core::fmt;
+
+/// Something that the manual does not allow, or that no encoder can answer to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Violation {
+    /// When, in picoseconds of the recording.
+    pub time: i64,
+    /// At which clock of its frame, the first falling edge being 1.
+    pub clock: Option<u32>,
+    /// What.
+    pub kind: ViolationKind,
+    /// The limits it is measured by.
+    pub timing: &'static Timing,
+}
+
+/// What is wrong. Durations are in picoseconds, frequencies in hertz.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ViolationKind {
+    /// The clock is slower than the slowest.
+    Slow {
+        /// Of the clock.
+        hertz: f64,
+    },
+    /// The clock is faster than the fastest.
+    Fast {
+        /// Of the clock.
+        hertz: f64,
+    },
+    /// The clock is fast, and its first low is too short for that.
+    FirstLow {
+        /// Of the clock.
+        hertz: f64,
+        /// Of the first low.
+        low: i64,
+        /// What it should be.
+        needed: i64,
+    },
+    /// The pause before this frame is too short.
+    Pause {
+        /// From the last edge of the frame before.
+        measured: i64,
+    },
+    /// The data line becomes high too early or too late after the frame.
+    Timeout {
+        /// From the last falling edge.
+        measured: i64,
+    },
+    /// The data line does not become high after the frame.
+    NotReady {
+        /// From the last falling edge to the next frame, or to the end of the recording.
+        measured: i64,
+    },
+    /// The clock rests within a frame for so long that the encoder gives the reading up.
+    Aborted {
+        /// The rest.
+        half: i64,
+    },
+    /// The clocks are what remains of an aborted reading.
+    Remainder,
+    /// The frame has too few clocks, or clocks that carry nothing.
+    Clocks {
+        /// Falling edges.
+        falling: u32,
+        /// Bits of the word, or of the frame from the acknowledge on.
+        word: u32,
+        /// Falling edges that it needs.
+        needed: u32,
+    },
+    /// The recording begins or ends within the frame.
+    Cut,
+    /// The acknowledge is not as long as the profile says.
+    Acknowledge {
+        /// Zeros.
+        bits: u32,
+        /// Zeros of the profile.
+        expected: u32,
+        /// Zeros of the frame before, where they were others.
+        before: Option<u32>,
+    },
+    /// A pulse of the clock far shorter than the others; it is left out of the bits.
+    Glitch {
+        /// Its width.
+        width: i64,
+        /// Half a period of the clock.
+        half: i64,
+    },
+    /// Data changes when it is being read.
+    LateData {
+        /// From the rising edge to the change.
+        delay: i64,
+        /// From the rising edge to the falling edge that reads the data.
+        high: i64,
+        /// How often in this frame.
+        times: u32,
+    },
+    /// The data line does not change during a whole frame and after it.
+    DataStuck {
+        /// Its level.
+        level: bool,
+    },
+    /// The clock rests low instead of high.
+    IdleLow,
+    /// The clock does not pause.
+    Endless {
+        /// Clocks without a pause.
+        clocks: u32,
+    },
+}
+
+/// A duration in the unit that suits it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Duration(pub(super) i64);
+
+/// Writes `value / unit` with up to two decimals.
+fn decimal(f: &mut fmt::Formatter<'_>, value: i128, unit: i128) -> fmt::Result {
+    let hundredths = (value * 100 + unit / 2) / unit;
+    let (whole, rest) = (hundredths / 100, hundredths % 100);
+    match (rest % 10, rest) {
+        (_, 0) => write!(f, "{whole}"),
+        (0, _) => write!(f, "{whole}.{}", rest / 10),
+        _ => write!(f, "{whole}.{rest:02}"),
+    }
+}
+
+impl fmt::Display for Duration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let picos = i128::from(self.0.unsigned_abs());
+        let units = [
+            (i128::from(SECOND), "s"),
+            (i128::from(SECOND / 1000), "ms"),
+            (i128::from(MICROSECOND), "µs"),
+            (i128::from(NANOSECOND), "ns"),
+        ];
+        let (unit, name) = units
+            .into_iter()
+            .find(|(unit, _)| picos >= *unit)
+            .unwrap_or((1, "ps"));
+        decimal(f, picos, unit)?;
+        write!(f, " {name}")
+    }
+}
+
+/// A frequency in the unit that suits it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frequency(pub(super) f64);
+
+impl fmt::Display for Frequency {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let hertz = self.0 as i128;
+        let units = [(1_000_000, "MHz"), (1000, "kHz"), (1, "Hz")];
+        let (unit, name) = units
+            .into_iter()
+            .find(|(unit, _)| hertz >= *unit)
+            .unwrap_or((1, "Hz"));
+        decimal(f, hertz, unit)?;
+        write!(f, " {name}")
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Timing {
+            source,
+            timeout_text,
+            pause_text,
+            ..
+        } = *self.timing;
+        let top = |hertz: u32| Frequency(hertz.into());
+        match self.kind {
+            ViolationKind::Slow { hertz } => write!(
+                f,
+                "clock of {}: slower than {} ({source})",
+                Frequency(hertz),
+                top(self.timing.slowest)
+            ),
+            ViolationKind::Fast { hertz } => write!(
+                f,
+                "clock of {}: faster than {} ({source})",
+                Frequency(hertz),
+                top(self.timing.limit())
+            ),
+            ViolationKind::FirstLow { hertz, low, needed } => write!(
+                f,
+                "clock of {} with a first low of {}: faster than {} needs a first low of {} \
+                 ({source})",
+                Frequency(hertz),
+                Duration(low),
+                top(self.timing.fastest),
+                Duration(needed)
+            ),
+            ViolationKind::Pause { measured } => write!(
+                f,
+                "pause of {} before this frame: shorter than {pause_text} ({source})",
+                Duration(measured)
+            ),
+            ViolationKind::Timeout { measured } => {
+                let (least, _) = self.timing.returns;
+                let word = if measured < least {
+                    "only"
+                } else {
+                    "as late as"
+                };
+                write!(
+                    f,
+                    "the data line is high again {word} {} after the last falling edge: the \
+                     encoder's time-out is {timeout_text} ({source})",
+                    Duration(measured)
+                )
+            }
+            ViolationKind::NotReady { measured } => write!(
+                f,
+                "the data line is still low {} after the last falling edge: the encoder's \
+                 time-out is {timeout_text} ({source})",
+                Duration(measured)
+            ),
+            ViolationKind::Aborted { half } => write!(
+                f,
+                "the clock rests for {} within the frame: longer than {timeout_text}, the encoder \
+                 gives the reading up ({source})",
+                Duration(half)
+            ),
+            ViolationKind::Remainder => write!(
+                f,
+                "the rest of the clocks of the reading given up before: they start a reading of \
+                 their own, cut short"
+            ),
+            ViolationKind::Clocks {
+                falling,
+                word,
+                needed,
+            } if falling < needed => match falling.checked_sub(1) {
+                Some(bits) if self.clocks_latch() => write!(
+                    f,
+                    "{falling} falling edges for a {word}-bit word give {bits} bits: send {needed} \
+                     ({source})"
+                ),
+                _ => write!(
+                    f,
+                    "{falling} falling edges: a frame of {word} bits from the acknowledge on needs \
+                     {needed} ({source})"
+                ),
+            },
+            ViolationKind::Clocks {
+                falling,
+                word,
+                needed,
+            } => {
+                let again = match self.timing.words {
+                    Words::Once => "the bits behind the word carry nothing",
+                    Words::Ring => "they do not make the word whole once more",
+                };
+                write!(
+                    f,
+                    "{falling} falling edges for a {word}-bit word, {} more than the {needed} it \
+                     needs: {again} ({source})",
+                    falling - needed
+                )
+            }
+            ViolationKind::Cut => f.write_str("the recording begins or ends within this frame"),
+            ViolationKind::Acknowledge {
+                bits,
+                expected,
+                before,
+            } => {
+                write!(f, "acknowledge of {bits} clocks: {expected} in the profile")?;
+                match before {
+                    Some(before) => write!(f, ", {before} in the frame before"),
+                    None => Ok(()),
+                }
+            }
+            ViolationKind::Glitch { width, half } => write!(
+                f,
+                "clock pulse of {} where half a period lasts {}: left out of the bits; whether the \
+                 encoder counted it, only a checksum tells",
+                Duration(width),
+                Duration(half)
+            ),
+            ViolationKind::LateData { delay, high, times } => write!(
+                f,
+                "data changes {} after the rising edge, the falling edge that reads it comes after \
+                 {}, {times} times in this frame: lower the clock or shorten the cable ({source})",
+                Duration(delay),
+                Duration(high)
+            ),
+            ViolationKind::DataStuck { level } => write!(
+                f,
+                "the data line stays {} during the whole frame: no encoder answers",
+                u8::from(level)
+            ),
+            ViolationKind::IdleLow => write!(
+                f,
+                "the clock rests low before this frame: it must rest high ({source}); the wire may \
+                 be the inverted one of its pair"
+            ),
+            ViolationKind::Endless { clocks } => write!(
+                f,
+                "{clocks} clocks without a pause of {pause_text} ({source})"
+            ),
+        }
+    }
+}
+
+impl Violation {
+    /// Whether the first falling edge only latches, so that n bits need n+1.
+    fn clocks_latch(&self) -> bool {
+        *self.timing != crate::format::biss_c::TIMING
+    }
+}
