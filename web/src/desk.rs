@@ -4,6 +4,7 @@
 //! Nothing here takes longer than a few hundredths of a second at a time, so that the page can ask
 //! for rows, or for something else altogether, while a large file is still being read.
 
+mod captured;
 mod export;
 mod judge;
 mod reading;
@@ -17,6 +18,7 @@ use crate::{
         Count, Explained, FromDesk, Marked, Overview, RowView, Selection, ToDesk, TraceView,
     },
 };
+use captured::Captured;
 use encoderscope::{
     decode::Decoder,
     dump::{Dump, Marks, Reader},
@@ -24,7 +26,7 @@ use encoderscope::{
     sheet::{Filter, Order, Quantity, Sheet, Show, Tally},
 };
 use judge::Judge;
-use reading::Captured;
+
 use share::Load;
 use source::Source;
 use std::{cell::RefCell, rc::Rc};

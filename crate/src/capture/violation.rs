@@ -110,6 +110,31 @@ pub enum ViolationKind {
     },
 }
 
+impl ViolationKind {
+    /// The kind in words.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Slow { .. } => "clock too slow",
+            Self::Fast { .. } => "clock too fast",
+            Self::FirstLow { .. } => "first low too short",
+            Self::Pause { .. } => "pause too short",
+            Self::Timeout { .. } => "time-out out of range",
+            Self::NotReady { .. } => "encoder not ready",
+            Self::Aborted { .. } => "read aborted",
+            Self::Remainder => "rest of an aborted read",
+            Self::Clocks { .. } => "wrong number of clocks",
+            Self::Cut => "cut by the recording",
+            Self::Acknowledge { .. } => "acknowledge of another length",
+            Self::Glitch { .. } => "glitch on the clock",
+            Self::LateData { .. } => "data changes late",
+            Self::DataStuck { .. } => "data line stuck",
+            Self::IdleLow => "clock rests low",
+            Self::Endless { .. } => "clock without a pause",
+        }
+    }
+}
+
 /// A duration in the unit that suits it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Duration(pub(super) i64);

@@ -2,59 +2,30 @@
 
 use super::{
     Desk, Paper,
+    captured::Captured,
     source::{self, HEAD, Recoder, Source, is_binary},
 };
 use crate::{
     browser::{now, pause},
     link,
-    message::{Count, FromDesk},
+    message::FromDesk,
 };
 use encoderscope::{
+    capture::{Kind, sniff},
+    decode::Decoder,
     dump::{Dump, Reader},
     format::Medium,
     sheet::Sheet,
 };
 
+/// Bytes of the largest recording of clock and data.
+const MOST_CAPTURED: f64 = 256e6;
 /// Bytes of data that are decoded in one go.
 const BUDGET: usize = 128 << 10;
 /// Rows that are looked at in one go.
 const ROWS: usize = 50_000;
 /// Microseconds of work before others get their turn.
 const SLICE: u64 = 20_000;
-
-/// What was found out about a capture of a logic analyser.
-#[derive(Debug, Default)]
-pub(super) struct Captured {
-    /// Which wires there are, and what else is to be said.
-    pub(super) notes: Vec<String>,
-    /// What is wrong with the timing of each frame.
-    violations: Vec<Vec<String>>,
-}
-
-impl Captured {
-    /// What is wrong with the timing, by kind.
-    pub(super) fn timing(&self) -> Vec<Count> {
-        let mut all: Vec<Count> = Vec::new();
-        for (index, said) in self.violations.iter().enumerate() {
-            for text in said {
-                match all.iter_mut().find(|known| known.name == *text) {
-                    Some(known) => known.count += 1.0,
-                    None => all.push(Count {
-                        name: text.clone(),
-                        count: 1.0,
-                        first: index,
-                    }),
-                }
-            }
-        }
-        all
-    }
-
-    /// What is wrong with the timing of a frame.
-    pub(super) fn said_of(&self, index: usize) -> Vec<String> {
-        self.violations.get(index).cloned().unwrap_or_default()
-    }
-}
 
 /// Gives others their turn when work has taken long enough.
 struct Turn {
@@ -113,9 +84,10 @@ impl Desk {
         let mut recoder = Recoder::new(&head);
         let binary = !recoder.is_needed() && is_binary(&head);
         self.state.borrow_mut().binary = binary;
-        match binary {
-            true => self.read_bytes(job, &source).await?,
-            false => {
+        match (binary, sniff(&head)) {
+            (_, Some(kind)) => self.read_capture(job, &source, kind).await?,
+            (true, None) => self.read_bytes(job, &source).await?,
+            (false, None) => {
                 let start = recoder_head(&head);
                 self.read_text(job, &source, &start, &mut recoder).await?;
             }
@@ -195,22 +167,74 @@ impl Desk {
     }
 
     async fn read_bytes(&self, job: u32, source: &Source) -> Result<(), String> {
-        let mut bytes = Vec::new();
         let mut turn = Turn::new();
+        if let Some(bytes) = self.read_all(job, source, &mut turn).await? {
+            self.state.borrow_mut().paper = Paper::Whole(Dump::of_bytes(bytes));
+            self.decode(job, &mut turn).await;
+        }
+        Ok(())
+    }
+
+    /// Everything from the origin on; nothing where the job is not wanted any more.
+    async fn read_all(
+        &self,
+        job: u32,
+        source: &Source,
+        turn: &mut Turn,
+    ) -> Result<Option<Vec<u8>>, String> {
+        let origin = self.state.borrow().origin as f64;
+        let mut bytes = Vec::new();
         loop {
-            let piece = source.piece(bytes.len() as f64).await?;
+            let piece = source.piece(origin + bytes.len() as f64).await?;
             if !self.wants(job) {
-                return Ok(());
+                return Ok(None);
             }
             if piece.is_empty() {
-                break;
+                return Ok(Some(bytes));
             }
             bytes.extend(piece);
-            self.state.borrow_mut().read = bytes.len() as f64;
+            self.state.borrow_mut().read = origin + bytes.len() as f64;
             self.tell(false);
             turn.over().await;
         }
-        self.state.borrow_mut().paper = Paper::Whole(Dump::of_bytes(bytes));
+    }
+
+    async fn read_capture(&self, job: u32, source: &Source, kind: Kind) -> Result<(), String> {
+        if source.len() > MOST_CAPTURED {
+            return Err(format!(
+                "The recording has {:.0} MB; clock and data of up to {:.0} MB are read at once. Export a shorter part.",
+                source.len() / 1e6,
+                MOST_CAPTURED / 1e6
+            ));
+        }
+        let mut turn = Turn::new();
+        let Some(text) = self.read_all(job, source, &mut turn).await? else {
+            return Ok(());
+        };
+        let profile = self.state.borrow().profile;
+        let (captured, dump, profile) = Captured::read(&text, kind, profile)?;
+        {
+            let mut state = self.state.borrow_mut();
+            state.captured = captured;
+            state.paper = Paper::Whole(dump);
+            state.sheet = Decoder::new(profile).ok().map(Sheet::new);
+            let (filter, order) = state.shown;
+            if let Some(sheet) = &mut state.sheet {
+                sheet.show(filter, order);
+            }
+            if state.profile != Some(profile) {
+                state.profile = Some(profile);
+                let post = state.post.clone();
+                drop(state);
+                post(
+                    FromDesk::Opened {
+                        text: None,
+                        profile: Some(link::query(&profile)),
+                    },
+                    None,
+                );
+            }
+        }
         self.decode(job, &mut turn).await;
         Ok(())
     }

@@ -1,0 +1,110 @@
+//! Recordings of a logic analyser: their frames, and what is wrong with their timing.
+
+use crate::message::Count;
+use encoderscope::{
+    capture::{Clocking, Kind, Options, Recording, Unreadable, Violation},
+    decode::Decoder,
+    dump::Dump,
+    format::{Format, Link},
+    profile::Profile,
+};
+
+/// What was found out about a recording.
+#[derive(Debug, Default)]
+pub(super) struct Captured {
+    /// Which wires there are, and what else is to be said.
+    pub(super) notes: Vec<String>,
+    /// What is wrong with the timing of each frame.
+    violations: Vec<Vec<Violation>>,
+}
+
+/// Reads the recording with the profile, or where no master clocks that, with the one of SSI and
+/// BiSS-C whose frames hold their checks.
+fn recording(text: &[u8], kind: Kind, profile: Option<Profile>) -> Result<Recording, Unreadable> {
+    let clocked = profile.filter(|profile| profile.link() == Link::Clocked);
+    let profiles = match clocked {
+        Some(profile) => vec![profile],
+        None => [Format::BissC, Format::Ssi]
+            .map(Format::default_profile)
+            .into(),
+    };
+    let mut best = Err(Unreadable::Signals(0));
+    for profile in profiles {
+        let Ok(decoder) = Decoder::new(profile) else {
+            continue;
+        };
+        best = Recording::read(text, kind, &decoder, Options::default());
+        let Ok(read) = &best else {
+            break;
+        };
+        // An acknowledge and a start bit are no SSI.
+        let starts = read.frames.iter().filter(|frame| {
+            let bits = frame.bits.as_bits();
+            (0..2.min(bits.len())).all(|at| bits.bit(at)) && bits.len() > 8 && !bits.bit(2)
+        });
+        if starts.count() * 2 > read.frames.len() {
+            break;
+        }
+    }
+    best
+}
+
+impl Captured {
+    /// Reads a recording; what it holds as a dump, and the profile that reads it.
+    ///
+    /// # Errors
+    ///
+    /// There are no clock and data in it; says why.
+    pub(super) fn read(
+        text: &[u8],
+        kind: Kind,
+        profile: Option<Profile>,
+    ) -> Result<(Self, Dump, Profile), String> {
+        let read = recording(text, kind, profile)
+            .map_err(|why| format!("The recording cannot be read: {why}."))?;
+        let mut notes: Vec<String> = read.wires.reasons.iter().map(ToString::to_string).collect();
+        if read.clocking == Clocking::Counted {
+            notes.push("There are no times in it, so that timing is not judged.".into());
+        }
+        notes.extend(read.stray.iter().map(ToString::to_string));
+        let lines = read
+            .frames
+            .iter()
+            .map(|frame| (frame.bits.clone(), Some(frame.seconds())));
+        let dump = Dump::of_lines(lines);
+        let violations = read.frames.into_iter().map(|frame| frame.violations);
+        Ok((
+            Self {
+                notes,
+                violations: violations.collect(),
+            },
+            dump,
+            read.profile,
+        ))
+    }
+
+    /// What is wrong with the timing, by kind.
+    pub(super) fn timing(&self) -> Vec<Count> {
+        let mut all: Vec<Count> = Vec::new();
+        for (index, violations) in self.violations.iter().enumerate() {
+            for violation in violations {
+                let name = violation.kind.name();
+                match all.iter_mut().find(|known| known.name == name) {
+                    Some(known) => known.count += 1.0,
+                    None => all.push(Count {
+                        name: name.into(),
+                        count: 1.0,
+                        first: index,
+                    }),
+                }
+            }
+        }
+        all
+    }
+
+    /// What is wrong with the timing of a frame.
+    pub(super) fn said_of(&self, index: usize) -> Vec<String> {
+        let violations = self.violations.get(index).into_iter().flatten();
+        violations.map(ToString::to_string).collect()
+    }
+}
