@@ -1,4 +1,5 @@
-//! How fast the core reads a stream: raw bytes a second, framing, checks and readings included.
+//! How fast the core reads a stream: raw bytes a second, framing, checks and readings included;
+//! and how fast it reads pasted text, in bytes of text.
 //!
 //! `cargo bench -p encoderscope-tests`; the limit beside it only adds the bytes up.
 #![allow(missing_docs)]
@@ -13,7 +14,9 @@ fn main() {
 
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
-    use encoderscope::{decode::Decoder, framing::Framer, reading::Values};
+    use encoderscope::{
+        decode::Decoder, dump::Reader, format::Medium, framing::Framer, reading::Values,
+    };
     use encoderscope_tests::decoder;
     use std::{hint::black_box, time::Instant};
 
@@ -21,9 +24,36 @@ mod native {
     /// What a serial port delivers at once.
     const CHUNK: usize = 65_536;
     const ROUNDS: usize = 20;
+    /// Pasted text, line by line.
+    const TEXTS: [(&str, &str); 3] = [
+        ("text of plain bytes", "1a 20 29 c0 3b 17 00 00 00 c8 37\n"),
+        (
+            "text of a log",
+            "[12:00:01.234] RX: 1A 20 29 C0 3B 17 00 00 00 C8 37\n",
+        ),
+        (
+            "text with comments",
+            "1A 20 29 C0 3B 17 00 00 00 C8 37 // at rest\n",
+        ),
+    ];
 
     pub(crate) fn run() {
         println!("{:<28} {:>10} {:>16}", "", "MB/s", "of adding up");
+        // An argument chooses the lines that hold it.
+        let chosen = |name: &str| {
+            let mut wanted = std::env::args()
+                .skip(1)
+                .filter(|word| !word.starts_with('-'));
+            wanted.all(|word| name.contains(&word))
+        };
+        for (name, line) in TEXTS {
+            if chosen(name) {
+                let text = line.repeat(BYTES / line.len());
+                let bytes = text.as_bytes();
+                let (sum, read) = (best(|| sum(bytes)), best(|| parsed(&text)));
+                report(name, bytes.len(), sum, read);
+            }
+        }
         for parameters in [
             "format=period",
             "format=rs485 command=1 turns-bits=0",
@@ -32,26 +62,36 @@ mod native {
             "format=asi1",
             "format=asi4",
         ] {
-            // An argument chooses the lines that hold it.
-            let wanted = std::env::args()
-                .skip(1)
-                .filter(|word| !word.starts_with('-'));
-            if !wanted.into_iter().all(|word| parameters.contains(&word)) {
+            if !chosen(parameters) {
                 continue;
             }
             let decoder = decoder(parameters);
             let bytes = stream(&decoder);
-            let sum = best(|| {
-                u64::from(
-                    black_box(&bytes)
-                        .iter()
-                        .fold(0u32, |sum, byte| sum.wrapping_add((*byte).into())),
-                )
-            });
             let read = best(|| read(&decoder, black_box(&bytes)));
-            let rate = |seconds: f64| bytes.len() as f64 / seconds / 1e6;
-            println!("{parameters:<28} {:>10.0} {:>16.3}", rate(read), sum / read);
+            report(parameters, bytes.len(), best(|| sum(&bytes)), read);
         }
+    }
+
+    fn report(name: &str, bytes: usize, sum: f64, read: f64) {
+        let rate = bytes as f64 / read / 1e6;
+        println!("{name:<28} {rate:>10.0} {:>16.3}", sum / read);
+    }
+
+    fn sum(bytes: &[u8]) -> u64 {
+        let bytes = black_box(bytes).iter();
+        u64::from(bytes.fold(0u32, |sum, byte| sum.wrapping_add((*byte).into())))
+    }
+
+    /// Reads pasted text as it comes from a file.
+    fn parsed(text: &str) -> u64 {
+        let mut reader = Reader::new(Medium::Bytes, text);
+        for chunk in black_box(text).as_bytes().chunks(CHUNK) {
+            reader.push(chunk);
+        }
+        let dump = reader.finish();
+        let lines = text.len() / dump.len();
+        assert!(lines < 100 && dump.unread().is_empty());
+        dump.bytes().len() as u64
     }
 
     /// A shaft that turns through many turns.

@@ -89,7 +89,9 @@ fn is_printable(head: &str) -> bool {
     let codes = ["=3D", "=C2=A0", "=E2=80"]
         .iter()
         .any(|code| head.contains(code));
-    let long = lines().any(|line| line.len() >= 70 && line.ends_with('='));
+    // Longer lines than these are not sent.
+    let folded = |line: &str| (70..=76).contains(&line.len()) && line.ends_with('=');
+    let long = lines().any(|line| folded(line) && !line.contains("=~"));
     spaces || codes || long || soft.count() > 1
 }
 
@@ -122,7 +124,11 @@ fn quotes(lines: &[String]) -> Quotes {
             Quotes::None
         };
     }
-    let quoted = || lines().filter(|line| line.starts_with('>') && !line.starts_with("->"));
+    let quoted = || lines().filter(|line| line.starts_with('>'));
+    // Prompts of Python.
+    if quoted().all(|line| line.starts_with(">>> ")) {
+        return Quotes::None;
+    }
     let all = quoted().count();
     let prosy = quoted().any(|line| prose::is_prose(&behind(line), Some(2)));
     // A mark in front of every line says nothing about its direction.

@@ -4,6 +4,7 @@
 #[cfg(target_arch = "wasm32")]
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
+mod corpus;
 mod detection;
 mod doctor;
 mod dumps;
@@ -19,6 +20,7 @@ mod laws_formats;
 mod laws_profiles;
 mod laws_ssi;
 mod layouts;
+mod pastes;
 mod rivals;
 mod sequences;
 mod sessions;
