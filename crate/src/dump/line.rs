@@ -4,7 +4,7 @@ use super::{
     direction::{self, Sign},
     prose,
     stamp::{self, Stamp},
-    token::tokens_of,
+    token::{Token, tokens_of},
     writing::{Quotes, Times, Writing},
 };
 use alloc::{string::String, vec::Vec};
@@ -141,7 +141,7 @@ fn can_identity(chunk: &str, rest: &str) -> usize {
     let number = chunk
         .strip_prefix("vcan")
         .or_else(|| chunk.strip_prefix("can"));
-    if !number.is_some_and(|number| number.parse::<u8>().is_ok()) {
+    if number.is_none_or(|number| number.parse::<u8>().is_err()) {
         return 0;
     }
     let identity = rest.trim_start();
@@ -248,7 +248,7 @@ pub(super) fn declaration(body: &str) -> Option<usize> {
     {
         let marked = tokens
             .next()
-            .and_then(|token| token.hexadecimal())
+            .and_then(Token::hexadecimal)
             .is_some_and(|(_, marked)| marked);
         return marked.then_some(first.at + first.text.len());
     }

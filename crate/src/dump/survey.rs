@@ -19,8 +19,10 @@ use alloc::{
 
 /// Decides on the writing of the text that begins with `head`.
 pub(super) fn survey(medium: Medium, head: &str) -> Writing {
-    let mut writing = Writing::default();
-    writing.printable = is_printable(head);
+    let mut writing = Writing {
+        printable: is_printable(head),
+        ..Writing::default()
+    };
     let lines = clean(head, writing.printable);
     writing.quotes = quotes(&lines);
     let lines: Vec<&str> = lines
@@ -349,7 +351,7 @@ fn is_octets(lines: &[Vec<Token<'_>>]) -> bool {
             .binary()
             .is_some_and(|(digits, marked)| marked && digits.len() <= 8)
     };
-    if tokens().all(|token| marked(token)) || tokens().all(|token| token.text.len() == 8) {
+    if tokens().all(marked) || tokens().all(|token| token.text.len() == 8) {
         return true;
     }
     let whole = lines.iter().all(|line| digits_of(line).is_multiple_of(8));

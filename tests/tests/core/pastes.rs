@@ -211,7 +211,7 @@ fn any_budget_gives_the_same_frames() {
                 reader.push(piece);
                 let budget = noise.below(20) as usize;
                 while pass.step(&decoder, reader.dump(), budget, &mut |decoded| {
-                    all.push(told(&decoded))
+                    all.push(told(&decoded));
                 }) {
                     if noise.below(3) == 0 {
                         break;
