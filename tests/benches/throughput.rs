@@ -1,5 +1,5 @@
 //! How fast the core reads a stream: raw bytes a second, framing, checks and readings included;
-//! and how fast it reads recordings of clock and data, bytes of their text a second.
+//! and how fast it reads pasted text, and recordings of clock and data, in bytes of text.
 //!
 //! `cargo bench -p encoderscope-tests`; the limit beside it only adds the bytes up.
 #![allow(missing_docs)]
@@ -17,6 +17,8 @@ mod native {
     use encoderscope::{
         capture::{Options, Recording, sniff, wave::Wave},
         decode::Decoder,
+        dump::Reader,
+        format::Medium,
         framing::Framer,
         reading::Values,
     };
@@ -30,9 +32,34 @@ mod native {
     /// What a serial port delivers at once.
     const CHUNK: usize = 65_536;
     const ROUNDS: usize = 20;
+    /// Pasted text, line by line.
+    const TEXTS: [(&str, &str); 3] = [
+        ("text of plain bytes", "1a 20 29 c0 3b 17 00 00 00 c8 37\n"),
+        (
+            "text of a log",
+            "[12:00:01.234] RX: 1A 20 29 C0 3B 17 00 00 00 C8 37\n",
+        ),
+        (
+            "text with comments",
+            "1A 20 29 C0 3B 17 00 00 00 C8 37 // at rest\n",
+        ),
+    ];
 
     pub(crate) fn run() {
         println!("{:<28} {:>10} {:>16}", "", "MB/s", "of adding up");
+        // An argument chooses the lines that hold it.
+        let chosen = |name: &str| {
+            let mut wanted = std::env::args()
+                .skip(1)
+                .filter(|word| !word.starts_with('-'));
+            wanted.all(|word| name.contains(&word))
+        };
+        for (name, line) in TEXTS {
+            if chosen(name) {
+                let text = line.repeat(BYTES / line.len());
+                report(name, text.as_bytes(), |_| parsed(&text));
+            }
+        }
         for parameters in [
             "format=period",
             "format=rs485 command=1 turns-bits=0",
@@ -41,11 +68,7 @@ mod native {
             "format=asi1",
             "format=asi4",
         ] {
-            // An argument chooses the lines that hold it.
-            let wanted = std::env::args()
-                .skip(1)
-                .filter(|word| !word.starts_with('-'));
-            if !wanted.into_iter().all(|word| parameters.contains(&word)) {
+            if !chosen(parameters) {
                 continue;
             }
             let decoder = decoder(parameters);
@@ -57,10 +80,7 @@ mod native {
             ("capture saleae", Writing::Saleae),
             ("capture sigrok csv", Writing::Sigrok(24)),
         ] {
-            let wanted = std::env::args()
-                .skip(1)
-                .filter(|word| !word.starts_with('-'));
-            if !wanted.into_iter().all(|word| name.contains(&word)) {
+            if !chosen(name) {
                 continue;
             }
             let decoder = decoder("format=ssi angle-bits=17");
@@ -80,6 +100,18 @@ mod native {
         let read = best(|| read(black_box(bytes)));
         let rate = |seconds: f64| bytes.len() as f64 / seconds / 1e6;
         println!("{name:<28} {:>10.0} {:>16.3}", rate(read), sum / read);
+    }
+
+    /// Reads pasted text as it comes from a file.
+    fn parsed(text: &str) -> u64 {
+        let mut reader = Reader::new(Medium::Bytes, text);
+        for chunk in black_box(text).as_bytes().chunks(CHUNK) {
+            reader.push(chunk);
+        }
+        let dump = reader.finish();
+        let lines = text.len() / dump.len();
+        assert!(lines < 100 && dump.unread().is_empty());
+        dump.bytes().len() as u64
     }
 
     /// A recording of a shaft that turns.

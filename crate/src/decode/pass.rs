@@ -167,7 +167,7 @@ impl Pass {
         let piece = dump.bytes().get(self.at as usize..stop as usize);
         for chunk in piece.unwrap_or_default().chunks(CHUNK) {
             self.framed(decoder, sink, |framer, decoder, out| {
-                framer.push(decoder, chunk, out)
+                framer.push(decoder, chunk, out);
             });
         }
         self.at = self.at.max(stop);
@@ -176,7 +176,7 @@ impl Pass {
     /// Ends the stretch before a request.
     fn end(&mut self, decoder: &Decoder, sink: &mut Sink<'_>) {
         self.framed(decoder, sink, |framer, decoder, out| {
-            framer.finish(decoder, out)
+            framer.finish(decoder, out);
         });
         self.framer = Framer::at_offset(self.at);
         self.request = None;

@@ -98,27 +98,27 @@ impl Clean {
                 found.push((at, meant));
             }
         }
-        for (at, meant) in found.into_iter().rev() {
-            let place = self.places[at.start];
-            let ends = self.places[at.end];
-            // Each letter keeps its own place.
-            let mut places: Vec<u64> = Vec::with_capacity(meant.len());
-            let mut index = at.start;
-            for letter in self.text[at.clone()].chars() {
-                places.push(self.places.get(index).copied().unwrap_or(place).min(ends));
-                index += letter.len_utf8();
-            }
-            let shrink = at.len() - meant.len();
-            self.places.splice(at.clone(), places);
-            self.text.replace_range(at.clone(), &meant);
-            for later in &mut self.alike {
-                if later.start >= at.end {
-                    *later = later.start - shrink..later.end - shrink;
-                }
-            }
-            self.alike.insert(0, at.start..at.start + meant.len());
+        if found.is_empty() {
+            return;
         }
-        self.alike.sort_by_key(|at| at.start);
+        let text = self.text.split_off(from);
+        let places = self.places.split_off(from);
+        let mut copied = 0;
+        for (at, meant) in found {
+            let at = at.start - from..at.end - from;
+            self.text.push_str(&text[copied..at.start]);
+            self.places.extend_from_slice(&places[copied..at.start]);
+            let start = self.text.len();
+            self.text.push_str(&meant);
+            // Each letter keeps its own place.
+            let letters = text[at.clone()].char_indices();
+            self.places
+                .extend(letters.map(|(index, _)| places[at.start + index]));
+            self.alike.push(start..self.text.len());
+            copied = at.end;
+        }
+        self.text.push_str(&text[copied..]);
+        self.places.extend_from_slice(&places[copied..]);
     }
 }
 

@@ -4,7 +4,7 @@ use super::{
     direction::{self, Sign},
     prose,
     stamp::{self, Stamp},
-    token::tokens_of,
+    token::{Token, tokens_of},
     writing::{Quotes, Times, Writing},
 };
 use alloc::{string::String, vec::Vec};
@@ -20,6 +20,10 @@ pub(super) struct Front {
     pub(super) stamp: Option<(Range<usize>, Stamp)>,
     pub(super) sign: Option<(Range<usize>, Sign)>,
     pub(super) labels: Range<usize>,
+    /// A note of how many bytes follow.
+    pub(super) length: Range<usize>,
+    /// Ordinary words among the labels.
+    words: usize,
     /// Where what is not of these begins.
     pub(super) body: usize,
 }
@@ -106,6 +110,7 @@ impl Front {
             if !(names && plain && label) && skipped == chunk.len() || chunk.is_empty() {
                 break;
             }
+            self.words += tokens_of(chunk).filter(|token| token.is_word()).count();
             self.body += skipped;
             end = self.body;
             self.blanks(line.as_bytes());
@@ -114,7 +119,7 @@ impl Front {
         self.labels = start..end.max(start);
         let rest = line.get(self.body..).unwrap_or_default();
         if let Some(len) = length(rest) {
-            self.labels.end = self.body + len;
+            self.length = self.body..self.body + len;
             self.body += len;
             self.blanks(line.as_bytes());
         }
@@ -123,9 +128,7 @@ impl Front {
     /// Whether what stands in front is data of a line of text after all.
     pub(super) fn is_prose(&self, line: &str, unit: Option<usize>) -> bool {
         let body = line.get(self.body..).unwrap_or_default();
-        let label = line.get(self.labels.clone()).unwrap_or_default();
-        let words = tokens_of(label).filter(|token| token.is_word()).count();
-        if words > 1 && !body.is_empty() {
+        if self.words > 1 && !body.is_empty() {
             let from = line.get(self.labels.start..).unwrap_or_default();
             return prose::is_prose(from, unit);
         }
@@ -138,7 +141,7 @@ fn can_identity(chunk: &str, rest: &str) -> usize {
     let number = chunk
         .strip_prefix("vcan")
         .or_else(|| chunk.strip_prefix("can"));
-    if !number.is_some_and(|number| number.parse::<u8>().is_ok()) {
+    if number.is_none_or(|number| number.parse::<u8>().is_err()) {
         return 0;
     }
     let identity = rest.trim_start();
@@ -171,6 +174,9 @@ fn length(rest: &str) -> Option<usize> {
     (count > 0).then(|| rest.len() - behind.len())
 }
 
+/// Comments of a line that are looked for; what stands behind more is one of them.
+const MOST_COMMENTS: usize = 64;
+
 /// A line with its comments blanked out, and where they stood.
 pub(super) fn without_comments(
     line: &str,
@@ -183,6 +189,10 @@ pub(super) fn without_comments(
     let mut at = 0;
     while at < line.len() {
         let rest = &line[at..];
+        if found.len() == MOST_COMMENTS {
+            found.push(at..line.len());
+            break;
+        }
         if *inside {
             let end = rest.find("*/").map_or(line.len(), |end| at + end + 2);
             *inside = end == line.len() && !rest.ends_with("*/");
@@ -238,7 +248,7 @@ pub(super) fn declaration(body: &str) -> Option<usize> {
     {
         let marked = tokens
             .next()
-            .and_then(|token| token.hexadecimal())
+            .and_then(Token::hexadecimal)
             .is_some_and(|(_, marked)| marked);
         return marked.then_some(first.at + first.text.len());
     }

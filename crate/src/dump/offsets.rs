@@ -112,7 +112,10 @@ impl Offsets {
                     let step = one_at.map(|at| at + one.bytes.len() as u64);
                     // The last of an odd number of bytes is written as a word.
                     let short = step.map(|step| step.saturating_sub(1));
-                    (!restarts).then_some(step == next_at || one.width == 4 && short == next_at)
+                    (!restarts).then_some(
+                        next_at.is_some()
+                            && (step == next_at || one.width == 4 && short == next_at),
+                    )
                 }
                 _ => None,
             });

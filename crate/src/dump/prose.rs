@@ -52,11 +52,18 @@ pub(super) fn is_prose(line: &str, unit: Option<usize>) -> bool {
 }
 
 fn is_weak(token: Token<'_>) -> bool {
-    WEAK.iter()
-        .any(|word| token.text.eq_ignore_ascii_case(word))
+    let letters = token.text.len() < 7 && token.text.bytes().all(|byte| byte.is_ascii_alphabetic());
+    letters
+        && WEAK
+            .iter()
+            .any(|word| token.text.eq_ignore_ascii_case(word))
 }
 
 fn fits(token: Token<'_>, unit: Option<usize>) -> bool {
+    // Long strings of 0 and 1 are no numbers of the usual width.
+    if token.text.len() >= 8 && token.binary().is_some() {
+        return true;
+    }
     let Some((digits, marked)) = token.hexadecimal() else {
         return token.decimal().is_some() && unit == Some(3);
     };

@@ -333,6 +333,7 @@ impl Reader {
             self.direction = Some(sign.direction);
         }
         self.drop(text, front.labels.clone(), Dropped::Column);
+        self.drop(text, front.length.clone(), Dropped::Column);
         let own = match &front.sign {
             Some((_, sign)) => {
                 self.signs[usize::from(sign.direction == Direction::Sent)] = true;

@@ -19,8 +19,10 @@ use alloc::{
 
 /// Decides on the writing of the text that begins with `head`.
 pub(super) fn survey(medium: Medium, head: &str) -> Writing {
-    let mut writing = Writing::default();
-    writing.printable = is_printable(head);
+    let mut writing = Writing {
+        printable: is_printable(head),
+        ..Writing::default()
+    };
     let lines = clean(head, writing.printable);
     writing.quotes = quotes(&lines);
     let lines: Vec<&str> = lines
@@ -89,7 +91,9 @@ fn is_printable(head: &str) -> bool {
     let codes = ["=3D", "=C2=A0", "=E2=80"]
         .iter()
         .any(|code| head.contains(code));
-    let long = lines().any(|line| line.len() >= 70 && line.ends_with('='));
+    // Longer lines than these are not sent.
+    let folded = |line: &str| (70..=76).contains(&line.len()) && line.ends_with('=');
+    let long = lines().any(|line| folded(line) && !line.contains("=~"));
     spaces || codes || long || soft.count() > 1
 }
 
@@ -122,7 +126,11 @@ fn quotes(lines: &[String]) -> Quotes {
             Quotes::None
         };
     }
-    let quoted = || lines().filter(|line| line.starts_with('>') && !line.starts_with("->"));
+    let quoted = || lines().filter(|line| line.starts_with('>'));
+    // Prompts of Python.
+    if quoted().all(|line| line.starts_with(">>> ")) {
+        return Quotes::None;
+    }
     let all = quoted().count();
     let prosy = quoted().any(|line| prose::is_prose(&behind(line), Some(2)));
     // A mark in front of every line says nothing about its direction.
@@ -343,7 +351,7 @@ fn is_octets(lines: &[Vec<Token<'_>>]) -> bool {
             .binary()
             .is_some_and(|(digits, marked)| marked && digits.len() <= 8)
     };
-    if tokens().all(|token| marked(token)) || tokens().all(|token| token.text.len() == 8) {
+    if tokens().all(marked) || tokens().all(|token| token.text.len() == 8) {
         return true;
     }
     let whole = lines.iter().all(|line| digits_of(line).is_multiple_of(8));

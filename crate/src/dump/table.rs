@@ -147,14 +147,17 @@ impl Table {
         let text = field(Some(self.data)).unwrap_or_default();
         let mut bytes = Vec::new();
         if !other && !text.is_empty() {
-            for word in line[data.clone()]
-                .trim()
-                .trim_matches('"')
-                .split([' ', '\t'])
-            {
-                if !word.is_empty() {
-                    bytes.push(self.value(word)?);
-                }
+            // Where a number is written in two ways, one of them is marked.
+            let words = || {
+                line[data.clone()]
+                    .trim()
+                    .trim_matches('"')
+                    .split([' ', '\t'])
+            };
+            let marked = |word: &str| word.contains("0x");
+            let any = words().any(marked);
+            for word in words().filter(|word| !word.is_empty() && (!any || marked(word))) {
+                bytes.push(self.value(word)?);
             }
         }
         let time = field(self.time).and_then(|text| {

@@ -31,7 +31,16 @@ pub(super) fn tokens_of(line: &str) -> impl Iterator<Item = Token<'_>> {
 }
 
 fn separates(letter: char) -> bool {
-    letter.is_whitespace() || letter.is_control() || ",;|{}[]()\"'`_-:=<>".contains(letter)
+    match letter {
+        ',' | ';' | '|' | '{' | '}' | '[' | ']' | '(' | ')' | '"' | '\'' | '`' | '_' | '-'
+        | ':' | '=' | '<' | '>' => true,
+        _ => letter.is_ascii_whitespace() || letter.is_ascii_control() || is_wide(letter),
+    }
+}
+
+/// Blanks and control characters beyond ASCII.
+fn is_wide(letter: char) -> bool {
+    !letter.is_ascii() && (letter.is_whitespace() || letter.is_control())
 }
 
 /// The digits of a hexadecimal number without what marks it as one.
@@ -61,6 +70,11 @@ impl<'a> Token<'a> {
     /// Without the full stops and marks of a sentence.
     fn trimmed(self) -> Self {
         let text = self.text.trim_end_matches(['.', '!', '?', '*']);
+        let text = if text.is_empty() && self.text.contains('?') {
+            self.text
+        } else {
+            text
+        };
         let rest = text.trim_start_matches(['.', '*', '~', '/']);
         Token {
             text: rest,

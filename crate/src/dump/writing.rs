@@ -91,8 +91,8 @@ impl Writing {
             Form::Annotations => "sigrok annotations",
             Form::Captured => "captured bits",
             Form::Free if self.times != Times::None => "terminal log with times",
-            Form::Free if self.directed => "terminal log",
             Form::Free if self.source => "source code",
+            Form::Free if self.directed => "terminal log",
             Form::Free => self.digits.name(),
         }
     }
@@ -113,7 +113,7 @@ impl fmt::Display for Writing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut text: String = self.name().to_string();
         let digits = self.digits.name();
-        if matches!(self.form, Form::Free) && text != digits {
+        if matches!(self.form, Form::Free) && text != digits && !self.source {
             text.push_str(", ");
             text.push_str(digits);
         }

@@ -156,12 +156,13 @@ impl Reader {
             let before = &here[..token.at];
             let behind = &here[token.at + token.text.len()..];
             let mark = before.ends_with(['b', 'B', 'x']) && behind.starts_with('"');
-            if !mark && !is_size(source, before, behind) && token.read(base, &mut self.dump.data) {
+            let size = is_size(source, before, behind);
+            if !mark && !size && token.read(base, &mut self.dump.data) {
                 continue;
             }
             let start = from + part.start + token.at;
             let range = start..start + token.text.len();
-            if source && is_name(token, before) {
+            if source && (size || is_name(token, before)) {
                 self.drop(text, range, Dropped::Declaration);
             } else {
                 self.unread(text, range);
@@ -187,12 +188,12 @@ fn is_directive(body: &str) -> bool {
     directive && !body.contains("0x") || named && !data
 }
 
-/// Whether a number in brackets is the size of what is declared.
+/// Whether a number in brackets is the size of what is declared, or of what is asked for.
 fn is_size(source: bool, before: &str, behind: &str) -> bool {
-    let named = before.strip_suffix('[').is_some_and(|name| {
+    let named = before.strip_suffix(['[', '(']).is_some_and(|name| {
         name.ends_with(|letter: char| letter.is_alphanumeric() || letter == '_')
     });
-    source && named && behind.starts_with(']')
+    source && named && behind.starts_with([']', ')'])
 }
 
 fn is_name(token: Token<'_>, before: &str) -> bool {

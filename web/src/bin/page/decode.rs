@@ -56,7 +56,7 @@ pub(crate) fn Decode() -> impl IntoView {
         (overview.profile, overview.done, overview.rows.min(1))
     });
     Effect::new(move || {
-        whole.track();
+        let _ = whole.get();
         if let Some(index) = shown.get() {
             desk.send(ToDesk::Explain(index));
         }

@@ -201,7 +201,7 @@ fn ByHand(sent: impl Fn() + Copy + Send + 'static) -> impl IntoView {
         (open, app.port.get(), app.profile.get())
     });
     Effect::new(move || {
-        target.track();
+        let _ = target.get();
         question.set(None);
     });
     let send = move || {

@@ -75,7 +75,7 @@ pub(crate) fn SettingPanel() -> impl IntoView {
     // What was chosen for one encoder is not done to another.
     let target = Memo::new(move |_| (reading(), app.port.get(), app.profile.get()));
     Effect::new(move || {
-        target.track();
+        let _ = target.get();
         chosen.set(None);
     });
     let doors = move || {

@@ -48,11 +48,11 @@ pub(super) fn AngleChart() -> impl IntoView {
     });
     let profile = Memo::new(move |_| desk.overview.get().profile);
     Effect::new(move || {
-        profile.track();
+        let _ = profile.get();
         zoom.set(None);
     });
     Effect::new(move || {
-        profile.track();
+        let _ = profile.get();
         let total = total.get();
         let (from, to) = zoom.get().unwrap_or((0, total));
         let columns = columns.get();

@@ -89,7 +89,7 @@ pub(super) fn Figures() -> impl IntoView {
         })
     };
     view! {
-        <section class="panel figures" data-testid="figures">
+        <section class="panel sums" data-testid="figures">
             <h2>{move || plural(desk.overview.get().frames, "frame")} <span>{heading}</span></h2>
             <dl>
                 {move || figures(&desk.overview.get()).into_iter().map(|(name, value)| view! {

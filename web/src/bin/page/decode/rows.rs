@@ -125,7 +125,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
         )
     });
     Effect::new(move || {
-        state.track();
+        let _ = state.get();
         let first = top.get().saturating_sub(BEYOND);
         desk.send(ToDesk::Rows {
             first,
@@ -134,7 +134,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
     });
     Effect::new(move || desk.send(ToDesk::Show(desk.selection.get())));
     Effect::new(move || {
-        scroll.total.track();
+        let _ = scroll.total.get();
         if let Some(place) = desk.goal.get()
             && (place < scroll.total.get_untracked() || place == 0)
         {
