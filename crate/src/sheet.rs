@@ -135,7 +135,7 @@ impl Sheet {
             trace: &mut self.trace,
         };
         let more = self.pass.step(&self.decoder, dump, budget, &mut |decoded| {
-            sink.add(&decoded)
+            sink.add(&decoded);
         });
         self.figures.summary = self.pass.summary();
         more

@@ -22,6 +22,7 @@ use captured::Captured;
 use encoderscope::{
     decode::Decoder,
     dump::{Dump, Marks, Reader},
+    export::{Language, source},
     profile::Profile,
     sheet::{Filter, Order, Quantity, Sheet, Show, Tally},
 };
@@ -153,6 +154,7 @@ impl Desk {
             ToDesk::Export(kind) => self.export(kind),
             ToDesk::Share => self.share(),
             ToDesk::Report => self.report(),
+            ToDesk::Source(language) => self.source(&language),
         }
     }
 
@@ -346,6 +348,15 @@ impl Desk {
         let rows = indices.unwrap_or_default().into_iter();
         let rows = rows.filter_map(|index| self.explained(index)).collect();
         self.post(FromDesk::Report(rows));
+    }
+
+    /// Writes the decoder in a programming language.
+    fn source(&self, language: &str) {
+        let known = Language::ALL.iter().find(|known| known.name() == language);
+        let decoder = self.state.borrow().decoder();
+        if let (Some(language), Some(decoder)) = (known, decoder) {
+            self.post(FromDesk::Source(source(&decoder, *language)));
+        }
     }
 
     fn share(&self) {

@@ -129,17 +129,19 @@ impl Figures {
             }
         }
         if let Some(reading) = frame.reading() {
-            self.add_reading(row, &reading, frame.layout.shape.profile.turns_bits, time);
+            let mut named = frame.layout.fields().flat_map(|field| field.row.bits);
+            // An error that is a named bit has been counted by its name.
+            if reading.error && !named.any(|bit| bit.role == Some(Role::Error)) {
+                count(&mut self.conditions, "error", row);
+            }
+            if reading.warning {
+                count(&mut self.conditions, "warning", row);
+            }
+            self.add_reading(&reading, frame.layout.shape.profile.turns_bits, time);
         }
     }
 
-    fn add_reading(&mut self, row: usize, reading: &Reading, turns_bits: u32, time: Option<f64>) {
-        if reading.error {
-            count(&mut self.conditions, "error", row);
-        }
-        if reading.warning {
-            count(&mut self.conditions, "warning", row);
-        }
+    fn add_reading(&mut self, reading: &Reading, turns_bits: u32, time: Option<f64>) {
         widen(&mut self.angle, reading.angle);
         let within = reading.angle as f64 / bits::codes(reading.angle_bits) as f64;
         let (position, again) = match reading.turns {

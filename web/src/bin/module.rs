@@ -242,7 +242,7 @@ pub fn serve_desk() {
     let listen = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
         let both: Array = event.data().unchecked_into();
         if let Ok(message) = serde_wasm_bindgen::from_value::<ToDesk>(both.get(0)) {
-            let file = Some(both.get(1)).filter(|file| file.is_object());
+            let file = Some(both.get(1)).filter(JsValue::is_object);
             desk.handle(message, file);
         }
     });

@@ -46,7 +46,8 @@ pub(super) async fn pack(load: &Load) -> Result<String, String> {
     let mut all = vec![kind];
     all.extend(data);
     all.extend(crc32(&all).to_be_bytes());
-    let stream = CompressionStream::new(CompressionFormat::DeflateRaw).map_err(said)?;
+    let stream =
+        CompressionStream::new(CompressionFormat::DeflateRaw).map_err(|error| said(&error))?;
     let packed = through(&all, stream.unchecked_ref(), usize::MAX).await?;
     let text = format!("1.{}", URL_SAFE_NO_PAD.encode(packed));
     match text.len() {
@@ -81,7 +82,8 @@ pub(super) async fn unpack(payload: &str) -> Result<Load, String> {
         ));
     }
     let packed = URL_SAFE_NO_PAD.decode(rest).map_err(|_| damaged())?;
-    let stream = DecompressionStream::new(CompressionFormat::DeflateRaw).map_err(said)?;
+    let stream =
+        DecompressionStream::new(CompressionFormat::DeflateRaw).map_err(|error| said(&error))?;
     let all = through(&packed, stream.unchecked_ref(), LARGEST)
         .await
         .map_err(|_| damaged())?;
@@ -100,8 +102,8 @@ pub(super) async fn unpack(payload: &str) -> Result<Load, String> {
     }
 }
 
-fn said(error: JsValue) -> String {
-    format!("The browser cannot pack links: {}", error_text(&error).1)
+fn said(error: &JsValue) -> String {
+    format!("The browser cannot pack links: {}", error_text(error).1)
 }
 
 /// What comes out of a transforming stream.
@@ -111,12 +113,14 @@ async fn through(
     most: usize,
 ) -> Result<Vec<u8>, String> {
     let parts = Array::of1(&Uint8Array::from(bytes));
-    let blob = Blob::new_with_u8_array_sequence(&parts).map_err(said)?;
+    let blob = Blob::new_with_u8_array_sequence(&parts).map_err(|error| said(&error))?;
     let out: ReadableStream = blob.stream().pipe_through(pair);
     let reader: ReadableStreamDefaultReader = out.get_reader().unchecked_into();
     let mut all = Vec::new();
     loop {
-        let read = JsFuture::from(reader.read()).await.map_err(said)?;
+        let read = JsFuture::from(reader.read())
+            .await
+            .map_err(|error| said(&error))?;
         let value = Reflect::get(&read, &"value".into()).unwrap_or_default();
         let Ok(piece) = value.dyn_into::<Uint8Array>() else {
             return Ok(all);

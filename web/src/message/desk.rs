@@ -66,6 +66,8 @@ pub enum ToDesk {
     Share,
     /// Explain the rows that a report shows.
     Report,
+    /// Write the decoder in a programming language, by its name.
+    Source(String),
 }
 
 /// Files that the worker writes.
@@ -146,6 +148,8 @@ pub enum FromDesk {
     Exported(FileKind),
     /// The rows of a report.
     Report(Vec<Explained>),
+    /// The decoder in a programming language.
+    Source(String),
     /// The input cannot be opened.
     Refused(String),
 }

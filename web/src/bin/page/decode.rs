@@ -23,7 +23,7 @@ use figures::Figures;
 use leptos::prelude::*;
 use own::OwnEditor;
 pub(crate) use own::first as first_own;
-use paste::{HowRead, Paste};
+use paste::Paste;
 use report::Report;
 use rows::Rows;
 use share::Share;
@@ -100,7 +100,6 @@ pub(crate) fn Decode() -> impl IntoView {
                     </section>
                 })}
             </div>
-            <HowRead />
             <Report />
         </div>
     }

@@ -29,13 +29,16 @@ pub(crate) enum Choice {
     Nobody,
 }
 
+/// A message, and the file beside it.
+type Parcel = (ToDesk, Option<Blob>);
+
 /// What the page knows of the input.
 #[derive(Clone, Copy)]
 pub(crate) struct Desk {
     workers: StoredValue<Workers, LocalStorage>,
     worker: StoredValue<Option<Worker>, LocalStorage>,
     /// What was said before the worker was ready.
-    waiting: StoredValue<Option<Vec<(ToDesk, Option<Blob>)>>, LocalStorage>,
+    waiting: StoredValue<Option<Vec<Parcel>>, LocalStorage>,
     /// Text of the box.
     pub(crate) text: RwSignal<String>,
     /// The text that the worker has.
@@ -53,6 +56,8 @@ pub(crate) struct Desk {
     pub(crate) marks: RwSignal<Vec<Marked>>,
     pub(crate) refusal: RwSignal<Option<String>>,
     pub(crate) report: RwSignal<Vec<Explained>>,
+    /// The decoder as source, when it was asked for.
+    pub(crate) source: RwSignal<Option<String>>,
     /// The input as a link carries it, or why none does.
     pub(crate) payload: RwSignal<Option<Result<String, String>>>,
     pub(crate) selection: RwSignal<Selection>,
@@ -86,6 +91,7 @@ impl Desk {
             marks: RwSignal::new(Vec::new()),
             refusal: RwSignal::new(None),
             report: RwSignal::new(Vec::new()),
+            source: RwSignal::new(None),
             payload: RwSignal::new(None),
             selection: RwSignal::new(Selection::default()),
             chosen: RwSignal::new(None),
@@ -144,7 +150,7 @@ impl Desk {
         let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
             let both: Array = event.data().unchecked_into();
             if let Ok(message) = serde_wasm_bindgen::from_value::<FromDesk>(both.get(0)) {
-                self.receive(message, both.get(1));
+                self.receive(message, &both.get(1));
             }
         });
         worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
@@ -170,7 +176,7 @@ impl Desk {
         ));
     }
 
-    fn receive(self, message: FromDesk, file: JsValue) {
+    fn receive(self, message: FromDesk, file: &JsValue) {
         match message {
             FromDesk::Ready => {
                 let waiting = self.waiting.try_update_value(Option::take).flatten();
@@ -217,8 +223,9 @@ impl Desk {
             }
             FromDesk::Trace(trace) => self.trace.set(trace),
             FromDesk::Shared(payload) => self.payload.set(Some(payload)),
-            FromDesk::Exported(kind) => save(&file, kind),
+            FromDesk::Exported(kind) => save(file, kind),
             FromDesk::Report(report) => self.report.set(report),
+            FromDesk::Source(source) => self.source.set(Some(source)),
             FromDesk::Refused(why) => {
                 self.refusal.set(Some(why));
                 self.judging.set(false);

@@ -22,19 +22,19 @@ fn range(low: String, high: String) -> String {
 pub(super) fn figures(overview: &Overview) -> Vec<(&'static str, String)> {
     let mut all = Vec::new();
     if let Some((low, high)) = overview.angle {
-        all.push(("angle", range(number(low, 3), number(high, 3)) + "°"));
+        all.push(("angle", range(&number(low, 3), &number(high, 3)) + "°"));
     }
     if let Some((low, high)) = overview.turns {
         let text = |value: f64| grouped_signed(value as i64);
-        all.push(("turns", range(text(low), text(high))));
+        all.push(("turns", range(&text(low), &text(high))));
     }
     if let Some((low, high)) = overview.speed {
-        all.push(("speed", range(number(low, 3), number(high, 3)) + " rev/s"));
+        all.push(("speed", range(&number(low, 3), &number(high, 3)) + " rev/s"));
     }
     if let Some((low, high)) = overview.temperature {
         all.push((
             "temperature",
-            range(number(low, 1), number(high, 1)) + " °C",
+            range(&number(low, 1), &number(high, 1)) + " °C",
         ));
     }
     if let Some(duration) = overview.duration.filter(|duration| *duration > 0.0) {

@@ -115,6 +115,7 @@ pub(super) fn Paste() -> impl IntoView {
         </div>
         <Progress />
         <ReadNote />
+        <HowRead />
         {move || desk.refusal.get().map(|why| view! { <p class="fault" role="alert" data-testid="refusal">{why}</p> })}
         <div class="doors">
             <button data-testid="example" on:click=move |_| {
@@ -218,26 +219,18 @@ fn ReadNote() -> impl IntoView {
 
 /// The text with what was left out and what cannot be read, in place.
 #[component]
-pub(super) fn HowRead() -> impl IntoView {
+fn HowRead() -> impl IntoView {
     let desk = expect_context::<App>().desk;
-    let open = RwSignal::new(false);
-    let unread = Memo::new(move |_| desk.marks.with(|marks| marks.iter().any(Marked::is_unread)));
-    Effect::new(move || {
-        if unread.get() {
-            open.set(true);
-        }
-    });
     move || {
         let marks = desk.marks.get();
         (!marks.is_empty() && !desk.is_empty()).then(|| {
             let text = desk.text.get_untracked();
+            let unread = marks.iter().any(Marked::is_unread);
             view! {
-                <section class="panel how-read">
-                    <details open=open.get_untracked()>
-                        <summary>"How the text was read"</summary>
-                        <pre data-testid="how-read">{pieces(&text, &marks)}</pre>
-                    </details>
-                </section>
+                <details class="how-read" open=unread>
+                    <summary>"How the text was read"</summary>
+                    <pre data-testid="how-read">{pieces(&text, &marks)}</pre>
+                </details>
             }
         })
     }

@@ -189,6 +189,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
             <FilterBar />
             <div
                 class="scroll"
+                style:height=move || format!("{}px", (scroll.total.get().clamp(1, SIGHT) + 1) as f64 * ROW + 4.0)
                 tabindex="0"
                 role="region"
                 aria-label="Frames"

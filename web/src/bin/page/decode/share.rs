@@ -1,10 +1,7 @@
 //! Out again: links, files, a report, and decoders to paste into a program.
 
 use crate::app::App;
-use encoderscope::{
-    decode::Decoder,
-    export::{Language, source},
-};
+use encoderscope::export::Language;
 use encoderscope_web::message::{FileKind, ToDesk};
 use leptos::prelude::*;
 use std::time::Duration;
@@ -81,12 +78,14 @@ pub(super) fn Share() -> impl IntoView {
             REPORT,
         );
     };
+    Effect::new(move || {
+        if let Some(source) = desk.source.get() {
+            desk.source.set(None);
+            copy(source, said, "Source copied.");
+        }
+    });
     let copy_as = move |language: Language| {
-        let copy_source = move |_| {
-            if let Ok(decoder) = Decoder::new(app.profile.get_untracked()) {
-                copy(source(&decoder, language), said, "Source copied.");
-            }
-        };
+        let copy_source = move |_| desk.send(ToDesk::Source(language.name().into()));
         view! {
             <button data-testid="copy-as" data-value=language.name() on:click=copy_source>{language.name()}</button>
         }
