@@ -10,11 +10,10 @@ fn number(value: f64, places: usize) -> String {
     format!("{value:.places$}").replace('-', "−")
 }
 
-fn range(low: String, high: String) -> String {
-    if low == high {
-        low
-    } else {
-        format!("{low} … {high}")
+fn range(low: &str, high: &str) -> String {
+    match low == high {
+        true => low.into(),
+        false => format!("{low} … {high}"),
     }
 }
 
