@@ -3,6 +3,10 @@
 //! A bit string is read as a wire or a byte dump shows it: bit 0 comes first and is the most
 //! significant bit of the first byte. Numbers inside it are most significant bit first.
 
+mod polynomial;
+
+pub use polynomial::Polynomial;
+
 use alloc::vec::Vec;
 
 /// A run of bits inside a bit string.
@@ -303,6 +307,20 @@ pub const fn from_gray(code: u64) -> u64 {
 #[must_use]
 pub const fn to_gray(value: u64) -> u64 {
     value ^ (value >> 1)
+}
+
+/// The low `width` bits of `value` in the opposite order.
+///
+/// ```
+/// assert_eq!(encoderscope::bits::reversed(0b0011, 4), 0b1100);
+/// ```
+#[must_use]
+pub const fn reversed(value: u64, width: u32) -> u64 {
+    match width {
+        0 => 0,
+        1..64 => (value & mask(width as usize)).reverse_bits() >> (64 - width),
+        _ => value.reverse_bits(),
+    }
 }
 
 /// How many decimal digits a number has.

@@ -3,16 +3,23 @@
 //! All of them start from 0, so leading zero bits do not change them: a bit string of any
 //! length is right-aligned into bytes first.
 
+mod algorithm;
+
+pub use algorithm::Algorithm;
+
 use crate::bits::{Bits, Span};
 use alloc::{format, string::String};
 use core::fmt;
-use crc::{Algorithm, Crc, NoTable};
+use crc::{Crc, NoTable};
 
 /// The longest checked run in bytes that does not consist of whole bytes: that of the longest
 /// layout a user may write.
 const LONGEST: usize = 32;
 
-static CRC8_97: Crc<u8> = Crc::<u8>::new(&Algorithm {
+static CRC8_97: Crc<u8> = Crc::<u8>::new(&X97);
+
+/// x⁸+x⁷+x⁴+x²+x+1.
+const X97: crc::Algorithm<u8> = crc::Algorithm {
     width: 8,
     poly: 0x97,
     init: 0,
@@ -21,9 +28,12 @@ static CRC8_97: Crc<u8> = Crc::<u8>::new(&Algorithm {
     xorout: 0,
     check: 0x94,
     residue: 0,
-});
+};
 
-static CRC8_XOR: Crc<u8> = Crc::<u8>::new(&Algorithm {
+static CRC8_XOR: Crc<u8> = Crc::<u8>::new(&XOR);
+
+/// x⁸+1.
+const XOR: crc::Algorithm<u8> = crc::Algorithm {
     width: 8,
     poly: 0x01,
     init: 0,
@@ -32,9 +42,12 @@ static CRC8_XOR: Crc<u8> = Crc::<u8>::new(&Algorithm {
     xorout: 0,
     check: 0x31,
     residue: 0,
-});
+};
 
-static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&Algorithm {
+static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&BISS);
+
+/// x⁶+x+1, inverted.
+const BISS: crc::Algorithm<u8> = crc::Algorithm {
     width: 6,
     poly: 0x03,
     init: 0,
@@ -43,18 +56,9 @@ static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&Algorithm {
     xorout: 0x3f,
     check: 0x2e,
     residue: 0,
-});
+};
 
-static CRC16_8005: Crc<u16> = Crc::<u16>::new(&Algorithm {
-    width: 16,
-    poly: 0x8005,
-    init: 0,
-    refin: false,
-    refout: false,
-    xorout: 0,
-    check: 0xfee8,
-    residue: 0,
-});
+static CRC16_8005: Crc<u16> = Crc::<u16>::new(&crc::CRC_16_UMTS);
 
 /// How a check field is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +114,36 @@ impl Checksum {
         }
     }
 
+    /// The parameters of the CRC; a parity has none.
+    ///
+    /// ```
+    /// use encoderscope::check::Checksum;
+    /// let crc = Checksum::Crc6Biss.algorithm().unwrap();
+    /// assert_eq!((crc.width, crc.polynomial, crc.xorout), (6, 0x03, 0x3f));
+    /// assert!(Checksum::EvenParity.algorithm().is_none());
+    /// ```
+    #[must_use]
+    pub const fn algorithm(self) -> Option<Algorithm> {
+        match self {
+            Self::Crc8x97 => Some(Algorithm::of_u8(&X97)),
+            Self::Crc8Xor => Some(Algorithm::of_u8(&XOR)),
+            Self::Crc6Biss => Some(Algorithm::of_u8(&BISS)),
+            Self::Crc16x8005 => Some(Algorithm::of_u16(&crc::CRC_16_UMTS)),
+            Self::EvenParity | Self::OddParity => None,
+            Self::Own(own) => {
+                let crc = own.crc.algorithm;
+                Some(Algorithm {
+                    width: crc.width as u32,
+                    polynomial: crc.poly,
+                    init: crc.init,
+                    refin: crc.refin,
+                    refout: crc.refout,
+                    xorout: crc.xorout,
+                })
+            }
+        }
+    }
+
     /// Number of bits of the check field.
     #[must_use]
     pub const fn width(self) -> u32 {
@@ -156,8 +190,8 @@ pub struct OwnCrc {
 impl OwnCrc {
     /// The CRC of an algorithm.
     #[must_use]
-    pub fn new(algorithm: &'static Algorithm<u64>) -> Self {
-        let Algorithm {
+    pub fn new(algorithm: &'static crc::Algorithm<u64>) -> Self {
+        let crc::Algorithm {
             width,
             poly,
             init,

@@ -12,6 +12,7 @@
 //!   [`finder`]: which encoder is on the line; [`doctor`]: how the link is; [`emulator`]: the
 //!   encoder's side of it all;
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
+//! - [`crc_search`]: the checksum of frames of an unknown format;
 //! - [`adapter`]: what USB adapters can do.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
@@ -27,6 +28,7 @@ extern crate alloc;
 pub mod adapter;
 pub mod bits;
 pub mod check;
+pub mod crc_search;
 pub mod decode;
 pub mod detect;
 pub mod doctor;

@@ -1,0 +1,205 @@
+//! CRCs described by their parameters, and those that sensors are known to use.
+
+use super::{BISS, X97, XOR};
+use crate::bits::{self, Bits, Polynomial, Span};
+use core::fmt;
+
+/// The parameters of a CRC (R. N. Williams, "A painless guide to CRC error detection
+/// algorithms"), 3 to 16 bits wide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Algorithm {
+    /// Number of bits.
+    pub width: u32,
+    /// The generator without its highest power.
+    pub polynomial: u64,
+    /// The register at the start.
+    pub init: u64,
+    /// Whether each byte goes in least significant bit first.
+    pub refin: bool,
+    /// Whether the register is read out least significant bit first.
+    pub refout: bool,
+    /// What is added to the register at the end.
+    pub xorout: u64,
+}
+
+/// The parameters of BiSS Safety's second CRC (BiSS Association, "BiSS Safety"), sent inverted.
+const BISS_16: Algorithm = Algorithm {
+    width: 16,
+    polynomial: 0x90d9,
+    init: 0,
+    refin: false,
+    refout: false,
+    xorout: 0xffff,
+};
+
+macro_rules! known {
+    ($($name:literal: $of:ident($algorithm:expr),)*) => {
+        /// The names and parameters of CRCs that sensors use; the parameters are those of Greg
+        /// Cook's catalogue of parametrised CRC algorithms and of the manuals.
+        pub const KNOWN: &[(&str, Self)] = &[
+            $(($name, Self::$of(&$algorithm)),)*
+            ("CRC-16/BISS", BISS_16),
+        ];
+    };
+}
+
+impl Algorithm {
+    known! {
+        "CRC-3/GSM": of_u8(crc::CRC_3_GSM),
+        "CRC-4/G-704": of_u8(crc::CRC_4_G_704),
+        "CRC-4/INTERLAKEN": of_u8(crc::CRC_4_INTERLAKEN),
+        "CRC-5/USB": of_u8(crc::CRC_5_USB),
+        "CRC-5/EPC-C1G2": of_u8(crc::CRC_5_EPC_C1G2),
+        "CRC-5/G-704": of_u8(crc::CRC_5_G_704),
+        "CRC-6/BISS": of_u8(BISS),
+        "CRC-6/G-704": of_u8(crc::CRC_6_G_704),
+        "CRC-6/GSM": of_u8(crc::CRC_6_GSM),
+        "CRC-6/DARC": of_u8(crc::CRC_6_DARC),
+        "CRC-7/MMC": of_u8(crc::CRC_7_MMC),
+        "CRC-8/0x97": of_u8(X97),
+        "exclusive or": of_u8(XOR),
+        "CRC-8/SMBUS": of_u8(crc::CRC_8_SMBUS),
+        "CRC-8/I-432-1": of_u8(crc::CRC_8_I_432_1),
+        "CRC-8/ROHC": of_u8(crc::CRC_8_ROHC),
+        "CRC-8/MAXIM": of_u8(crc::CRC_8_MAXIM_DOW),
+        "CRC-8/NRSC-5": of_u8(crc::CRC_8_NRSC_5),
+        "CRC-8/AUTOSAR": of_u8(crc::CRC_8_AUTOSAR),
+        "CRC-8/OPENSAFETY": of_u8(crc::CRC_8_OPENSAFETY),
+        "CRC-8/SAE-J1850": of_u8(crc::CRC_8_SAE_J1850),
+        "CRC-8/GSM-A": of_u8(crc::CRC_8_GSM_A),
+        "CRC-8/LTE": of_u8(crc::CRC_8_LTE),
+        "CRC-8/WCDMA": of_u8(crc::CRC_8_WCDMA),
+        "CRC-8/CDMA2000": of_u8(crc::CRC_8_CDMA2000),
+        "CRC-8/DVB-S2": of_u8(crc::CRC_8_DVB_S2),
+        "CRC-8/BLUETOOTH": of_u8(crc::CRC_8_BLUETOOTH),
+        "CRC-10/ATM": of_u16(crc::CRC_10_ATM),
+        "CRC-11/FLEXRAY": of_u16(crc::CRC_11_FLEXRAY),
+        "CRC-12/DECT": of_u16(crc::CRC_12_DECT),
+        "CRC-12/UMTS": of_u16(crc::CRC_12_UMTS),
+        "CRC-14/DARC": of_u16(crc::CRC_14_DARC),
+        "CRC-15/CAN": of_u16(crc::CRC_15_CAN),
+        "CRC-16/BUYPASS": of_u16(crc::CRC_16_UMTS),
+        "CRC-16/ARC": of_u16(crc::CRC_16_ARC),
+        "CRC-16/MODBUS": of_u16(crc::CRC_16_MODBUS),
+        "CRC-16/USB": of_u16(crc::CRC_16_USB),
+        "CRC-16/CCITT-FALSE": of_u16(crc::CRC_16_IBM_3740),
+        "CRC-16/XMODEM": of_u16(crc::CRC_16_XMODEM),
+        "CRC-16/KERMIT": of_u16(crc::CRC_16_KERMIT),
+        "CRC-16/X-25": of_u16(crc::CRC_16_IBM_SDLC),
+        "CRC-16/GENIBUS": of_u16(crc::CRC_16_GENIBUS),
+        "CRC-16/MCRF4XX": of_u16(crc::CRC_16_MCRF4XX),
+        "CRC-16/DNP": of_u16(crc::CRC_16_DNP),
+        "CRC-16/T10-DIF": of_u16(crc::CRC_16_T10_DIF),
+        "CRC-16/PROFIBUS": of_u16(crc::CRC_16_PROFIBUS),
+    }
+
+    pub(super) const fn of_u8(from: &crc::Algorithm<u8>) -> Self {
+        Self {
+            width: from.width as u32,
+            polynomial: from.poly as u64,
+            init: from.init as u64,
+            refin: from.refin,
+            refout: from.refout,
+            xorout: from.xorout as u64,
+        }
+    }
+
+    pub(super) const fn of_u16(from: &crc::Algorithm<u16>) -> Self {
+        Self {
+            width: from.width as u32,
+            polynomial: from.poly as u64,
+            init: from.init as u64,
+            refin: from.refin,
+            refout: from.refout,
+            xorout: from.xorout as u64,
+        }
+    }
+
+    /// The usual name, where the parameters have one.
+    ///
+    /// ```
+    /// use encoderscope::check::{Algorithm, Checksum};
+    /// let crc = Checksum::Crc16x8005.algorithm().unwrap();
+    /// assert_eq!(crc.name(), Some("CRC-16/BUYPASS"));
+    /// ```
+    #[must_use]
+    pub fn name(&self) -> Option<&'static str> {
+        let mut known = Self::KNOWN.iter();
+        known
+            .find(|(_, known)| known == self)
+            .map(|(name, _)| *name)
+    }
+
+    /// The generator with its highest power.
+    #[must_use]
+    pub fn generator(&self) -> Polynomial {
+        Polynomial::from(1).followed(self.polynomial, self.width)
+    }
+
+    /// The CRC of a run of bits.
+    ///
+    /// With `refin` each eight bits from the start of the run go in last bit first, and so do
+    /// those of a shorter rest.
+    ///
+    /// ```
+    /// use encoderscope::{bits::{Bits, Span}, check::Algorithm};
+    /// let (_, modbus) = Algorithm::KNOWN.iter().find(|(name, _)| *name == "CRC-16/MODBUS").unwrap();
+    /// assert_eq!(modbus.compute(Bits::of_bytes(b"123456789"), Span::new(0, 72)), 0x4b37);
+    /// ```
+    #[must_use]
+    pub fn compute(&self, bits: Bits<'_>, over: Span) -> u64 {
+        let all = bits::mask(self.width as usize);
+        let mut register = self.init & all;
+        let mut at = over.start;
+        while at < over.end() {
+            let take = (over.end() - at).min(8);
+            let part = bits.read(Span::new(at, take));
+            let part = match self.refin {
+                true => bits::reversed(part, take as u32),
+                false => part,
+            };
+            for place in (0..take as u32).rev() {
+                let top = bits::bit(register, self.width.saturating_sub(1));
+                register = bits::placed(register, 1) & all;
+                if top != bits::bit(part, place) {
+                    register ^= self.polynomial;
+                }
+            }
+            at += take;
+        }
+        let out = match self.refout {
+            true => bits::reversed(register, self.width),
+            false => register,
+        };
+        (out ^ self.xorout) & all
+    }
+}
+
+impl fmt::Display for Algorithm {
+    /// The usual name with the polynomial, or all parameters.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = self.width.div_ceil(4) as usize;
+        if *self == Self::of_u8(&XOR) {
+            return f.write_str("exclusive or of all bytes");
+        }
+        if let Some(name) = self.name() {
+            return write!(f, "{name} (polynomial 0x{:0digits$X})", self.polynomial);
+        }
+        write!(
+            f,
+            "CRC-{} with polynomial 0x{:0digits$X}, start 0x{:0digits$X}",
+            self.width, self.polynomial, self.init
+        )?;
+        match (self.refin, self.refout) {
+            (false, false) => {}
+            (true, true) => f.write_str(", reflected")?,
+            (true, false) => f.write_str(", bytes reflected")?,
+            (false, true) => f.write_str(", result reflected")?,
+        }
+        match self.xorout {
+            0 => Ok(()),
+            all if all == bits::mask(self.width as usize) => f.write_str(", inverted"),
+            other => write!(f, ", result changed by 0x{other:0digits$X}"),
+        }
+    }
+}
