@@ -6,6 +6,7 @@ wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
 mod crc_search;
 mod detection;
+mod detection_kinds;
 mod doctor;
 mod dumps;
 mod encoders;

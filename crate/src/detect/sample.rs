@@ -1,0 +1,130 @@
+//! What of a dump is looked at.
+
+use super::Change;
+use crate::{
+    bits::{BitString, Bits},
+    dump::{Dump, Line},
+    format::Medium,
+};
+use alloc::{collections::BTreeMap, vec::Vec};
+
+/// Bytes of a dump that are looked at; of a longer one, three stretches.
+const ENOUGH: usize = 256 * 1024;
+
+/// The same text, read as bytes, as bits and as lines of text.
+#[derive(Clone, Debug)]
+pub(super) struct Sample {
+    bytes: Dump,
+    bits: Dump,
+    text: Dump,
+    /// Whether the text is a list of decimal numbers: their line ends were not on the wire.
+    pub(super) is_decimal: bool,
+}
+
+impl Sample {
+    pub(super) fn new(bytes: &Dump, bits: &Dump, text: &Dump) -> Self {
+        let (bytes, bits, text) = (stretches(bytes), stretches(bits), stretches(text));
+        Self {
+            is_decimal: bytes.bytes() != text.bytes(),
+            bytes,
+            bits,
+            text,
+        }
+    }
+
+    pub(super) const fn dump(&self, medium: Medium) -> &Dump {
+        match medium {
+            Medium::Bytes => &self.bytes,
+            Medium::Bits => &self.bits,
+            Medium::Text => &self.text,
+        }
+    }
+
+    /// Whether it was written as strings of 0 and 1: those are clocked words.
+    pub(super) fn is_bits(&self) -> bool {
+        self.bits.is_bits()
+    }
+
+    /// The same after a change, which a text of decimal numbers cannot undergo.
+    pub(super) fn changed(&self, change: Change) -> Self {
+        Self {
+            bytes: change.apply(&self.bytes),
+            bits: change.apply(&self.bits),
+            text: self.text.clone(),
+            is_decimal: self.is_decimal,
+        }
+    }
+
+    /// The length of most lines in bits, and how many have it.
+    pub(super) fn line_bits(&self) -> Option<(usize, usize)> {
+        let mut lengths = BTreeMap::new();
+        for line in lines(&self.bits) {
+            *lengths.entry(line.len()).or_insert(0) += 1;
+        }
+        lengths.into_iter().max_by_key(|(_, count)| *count)
+    }
+}
+
+/// The bits of every line.
+pub(super) fn lines(dump: &Dump) -> impl Iterator<Item = Bits<'_>> {
+    dump.lines.iter().map(|line| line.bits.as_bits())
+}
+
+/// A dump with other bits in its lines; lines that come to nothing are left out.
+pub(super) fn mapped(dump: &Dump, change: &mut dyn FnMut(Bits<'_>) -> BitString) -> Dump {
+    let changed = dump.lines.iter().map(|line| Line {
+        bits: change(line.bits.as_bits()),
+        binary: line.binary,
+    });
+    Dump {
+        lines: changed
+            .filter(|line| !line.bits.as_bits().is_empty())
+            .collect(),
+        unread: Vec::new(),
+    }
+}
+
+/// The lines of a dump that `keep` names.
+pub(super) fn kept(dump: &Dump, keep: &dyn Fn(usize) -> bool) -> Dump {
+    let lines = dump.lines.iter().enumerate();
+    Dump {
+        lines: lines
+            .filter(|(index, _)| keep(*index))
+            .map(|(_, line)| line.clone())
+            .collect(),
+        unread: Vec::new(),
+    }
+}
+
+/// The front, the middle and the end of a dump that is too long to be looked at whole.
+fn stretches(dump: &Dump) -> Dump {
+    let total: usize = lines(dump).map(|line| line.bytes().len()).sum();
+    if total <= ENOUGH {
+        return dump.clone();
+    }
+    let third = ENOUGH / 3;
+    let starts = [0, (total - third) / 2, total - third];
+    let wanted = |at: usize| starts.iter().any(|start| (*start..start + third).contains(&at));
+    let mut at = 0;
+    mapped(dump, &mut |bits| {
+        let start = at;
+        at += bits.bytes().len();
+        // A line is kept whole, unless it is a stream by itself.
+        if bits.bytes().len() > third {
+            let bytes = (start..).zip(bits.bytes());
+            let bytes = bytes.filter(|(at, _)| wanted(*at)).map(|(_, byte)| *byte);
+            return BitString::of_bytes(bytes.collect());
+        }
+        match wanted(start) {
+            true => copied(bits),
+            false => BitString::default(),
+        }
+    })
+}
+
+/// The bits as a string of their own.
+pub(super) fn copied(bits: Bits<'_>) -> BitString {
+    let mut out = BitString::default();
+    (0..bits.len()).for_each(|at| out.push(bits.bit(at)));
+    out
+}

@@ -1,0 +1,418 @@
+//! How well one profile explains a dump, in bits.
+
+use super::{
+    Candidate, LIKELY, Verdict,
+    hypotheses::{unusual, width},
+    motion::{Motion, Track},
+    sample::{kept, lines},
+};
+use crate::{
+    bits::{self, Bits},
+    decode::{Decoded, Decoder, Frame},
+    dump::Dump,
+    format::{Format, Medium},
+    framing::Why,
+    layout::{Role, Shape},
+    profile::Profile,
+    reading::Values,
+};
+use alloc::{
+    collections::BTreeSet,
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
+
+/// Against: a frame that fails, a byte of no frame, a width whose top bit was never seen set.
+const FAILS: i32 = 6;
+const SKIPPED: i32 = 1;
+const UNUSED_BIT: i32 = 1;
+/// For: an identity that names the width, a preamble that is the profile's own.
+const NAMED: i32 = 12;
+const PREAMBLE: i32 = 4;
+/// For: the only width that an encoder of the manuals has.
+const OWN_WIDTH: i32 = 4;
+/// For: the requests that such replies follow, and the pace that the manual gives.
+const ASKED: i32 = 8;
+/// Against: a bit of the angle that never changes, for each position, and so many at most.
+const STUCK_MOST: u32 = 8;
+/// Against: an error or warning that comes and goes, for each time, and so many at most.
+const FLICKERS: i32 = 2;
+const FLICKERS_MOST: i32 = 30;
+/// Against: an error and a warning at once in every frame; another address.
+const BOTH: i32 = 6;
+const ADDRESS: i32 = 4;
+/// For: lines of text, which no other stream is.
+pub(super) const LINES: i32 = 10;
+/// For a temperature that a chip may have, in tenths of a degree; against any other.
+const LIKELY_HEAT: i32 = 3;
+const ROOM: core::ops::RangeInclusive<i32> = 50..=900;
+/// Against: the bytes of the angle in the wrong order.
+const SWAPPED: i32 = 12;
+/// Against: a counter that is no shaft.
+const COUNTER: i32 = 400;
+/// Against: bits beside the word that nobody would have clocked, or that fill up its bytes.
+const CLOCKED: i32 = 8;
+const FILLED: i32 = 1;
+/// What a word of the right length is worth when nothing else is known.
+const STEADY: i32 = 6;
+/// Lines that are looked at before all are.
+const FIRST: usize = 6;
+/// Bytes that are looked at before all are.
+const FRONT: usize = 4096;
+
+/// Everything that was counted over the good frames of a dump.
+#[derive(Default)]
+struct Counted {
+    distinct: BTreeSet<Vec<u8>>,
+    track: Track,
+    /// The same with the bytes of the angle in the other order.
+    swapped: Track,
+    good: u64,
+    /// Bytes of the good frames.
+    covered: u64,
+    temperatures: Option<(i32, i32)>,
+    check_bits: i32,
+    named: bool,
+    preamble: bool,
+    requests: u64,
+    addresses: BTreeSet<u8>,
+    both: u64,
+    flickers: i32,
+    flags: Option<(Option<bool>, Option<bool>, Option<u8>)>,
+    /// What all readings are, so that two profiles that read alike are known.
+    reads: u64,
+}
+
+impl Counted {
+    fn add(&mut self, profile: &Profile, frame: &Frame<'_>) {
+        let values = frame.values();
+        self.good += 1;
+        self.named |= matches!(
+            (values.enid, profile.angle_bits),
+            (Some(0x17), 23) | (Some(0x11), 17)
+        );
+        self.preamble |= frame.layout.shape.preamble
+            && frame.layout.shape
+                == Shape {
+                    tail: frame.layout.shape.tail,
+                    ..Shape::of(*profile)
+                };
+        self.addresses.extend(values.address);
+        self.track.add(profile, &values);
+        if profile.medium() == Medium::Bytes {
+            self.swapped.add(profile, &swapped(profile, &values));
+        }
+        self.covered += frame.bits.bytes().len() as u64;
+        if let Some(heat) = values.temperature {
+            let heat = heat as i32;
+            let (least, most) = self.temperatures.unwrap_or((heat, heat));
+            self.temperatures = Some((least.min(heat), most.max(heat)));
+        }
+        self.both += u64::from(values.error == Some(true) && values.warning == Some(true));
+        let flags = (values.error, values.warning, values.status);
+        self.flickers += i32::from(self.flags.is_some_and(|before| before != flags));
+        self.flags = Some(flags);
+        let kind = u64::from(values.speed.is_some());
+        let turns = values.turns.unwrap_or(0).unsigned_abs();
+        for part in [values.angle.unwrap_or(0), turns, kind] {
+            // FNV-1a, a word at a time.
+            self.reads = (self.reads ^ part).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+        // A frame of nothing but zeros says nothing: its CRC is 0 too.
+        let bytes = frame.bits.bytes();
+        if bytes.iter().any(|byte| *byte != 0) {
+            self.check_bits = check_width(frame);
+            self.distinct.insert(bytes.to_vec());
+        }
+    }
+}
+
+/// Tries one profile; `None` where no frame passes.
+pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
+    let decoder = Decoder::new(profile).ok()?;
+    if !is_promising(&decoder, dump) {
+        return None;
+    }
+    let mut counted = Counted::default();
+    let mut unsure = Counted::default();
+    let summary = decoder.dump(dump, &mut |decoded| match decoded {
+        Decoded::Frame(frame) if frame.ok() => counted.add(&profile, &frame),
+        Decoded::Frame(frame) if frame.layout.holds(frame.bits) => unsure.add(&profile, &frame),
+        Decoded::Skip { why, bits, .. } if why == Why::Request => {
+            counted.requests += bits.bytes().len() as u64;
+        }
+        _ => {}
+    });
+    // A still shaft does not tell where its frames begin, but they are of its format.
+    let placed = counted.good > 0;
+    if !placed {
+        unsure.requests = counted.requests;
+        counted = unsure;
+    }
+    let count = i32::try_from(counted.distinct.len()).unwrap_or(i32::MAX / 64);
+    if count == 0 {
+        return None;
+    }
+    // Polled replies are not a free-running stream, but nothing tells those without requests.
+    if profile.format == Format::Period && counted.requests > 0 {
+        return None;
+    }
+    let mut profile = profile;
+    if let (Some(address), 1) = (counted.addresses.first(), counted.addresses.len()) {
+        profile.address = u32::from(*address);
+    }
+    let motion = counted.track.motion(&profile);
+    let mut evidence = Vec::new();
+    let proved = count.saturating_mul(counted.check_bits);
+    let bad = summary.frames - counted.good;
+    if counted.check_bits > 0 {
+        evidence.push(format!(
+            "the check holds in {} of {} frames",
+            counted.good, summary.frames
+        ));
+        if counted.distinct.len() as u64 != counted.good {
+            evidence.push(format!("{count} of them are distinct"));
+        }
+        evidence.push(format!("by chance 1 in 2^{proved}"));
+    } else {
+        evidence.push(format!(
+            "{} of {} lines have its form; it has no check",
+            counted.good, summary.frames
+        ));
+    }
+    let unusual = unusual(&profile) + beside(&profile, dump);
+    let mut score = proved - unusual;
+    score += moves(&motion, &counted, &profile, &mut evidence);
+    let strange = summary.skipped - counted.requests;
+    // A damaged dump is still a dump of its format: what is good in it keeps a quarter.
+    let against = bad * FAILS as u64 + strange * SKIPPED as u64;
+    let against = i32::try_from(against).unwrap_or(i32::MAX / 2);
+    score -= against.min(score.max(0) / 4 * 3 + bad as i32 / 2);
+    if !placed {
+        score = score.min(LIKELY);
+        evidence.push("where its frames begin is not certain".to_string());
+    }
+    if motion.jumps * 2 > motion.steps {
+        let other = counted.swapped.motion(&profile);
+        if other.smooth > other.jumps {
+            score -= SWAPPED;
+            let why = "the angle is continuous only with its bytes in the other order";
+            evidence.insert(0, why.to_string());
+        }
+    }
+    if counted.requests > 0 {
+        score += ASKED;
+        evidence.push(format!("{} requests stand between them", counted.requests));
+    }
+    if strange > 0 {
+        evidence.push(format!("{strange} bytes belong to no frame"));
+    }
+    score += fits(&counted, &profile, &mut evidence);
+    // Without a check, words of the right length that stand still may be anything.
+    let steady = motion.jumps == 0 && counted.flickers == 0 && motion.stuck == 0;
+    let odd = counted.both > 0 || bad + strange > 0 || motion.counts;
+    if counted.check_bits <= 1 && steady && !odd {
+        score = score.max(STEADY + counted.check_bits - unusual - motion.unset.min(4) as i32);
+    }
+    Some(Candidate {
+        profile,
+        verdict: Verdict::of(score, count),
+        evidence,
+        change: None,
+        score,
+        distinct: count,
+        checked: counted.check_bits > 0,
+        motion,
+        reads: counted.reads,
+        covered: counted.covered,
+        strange,
+    })
+}
+
+/// How odd the bits beside the word are.
+fn beside(profile: &Profile, dump: &Dump) -> i32 {
+    let len = lines(dump).next().map_or(0, Bits::len) as u32;
+    let spare = width(profile).and_then(|width| len.checked_sub(width));
+    match spare.unwrap_or(0) {
+        0 => 0,
+        // The same word may come several times.
+        _ if dump.is_bits() && profile.format == Format::SsiTree && len > 24 => FILLED,
+        1 => FILLED,
+        _ if dump.is_bits() && !len.is_multiple_of(8) => CLOCKED,
+        _ => FILLED,
+    }
+}
+
+/// What the positions say.
+fn moves(
+    motion: &Motion,
+    counted: &Counted,
+    profile: &Profile,
+    evidence: &mut Vec<String>,
+) -> i32 {
+    let mut score = motion.gain;
+    if motion.counts && counted.check_bits == 0 {
+        evidence.push("every step is the same, as those of a counter are".to_string());
+        return -COUNTER;
+    }
+    let goes_on = motion.smooth > 0 && motion.smooth * 2 >= motion.steps;
+    if goes_on {
+        evidence.push(format!(
+            "the position is continuous: {} of {} steps go on from those before, by chance 1 in 2^{}",
+            motion.smooth, motion.steps, motion.gain
+        ));
+    } else if motion.steps > 0 {
+        evidence.push(match motion.jumps {
+            0 => "the shaft hardly moves".to_string(),
+            jumps => format!("the position jumps in {jumps} of {} steps", motion.steps),
+        });
+    } else {
+        evidence.push("the shaft stands still".to_string());
+    }
+    if motion.turned > 0 && !is_one_number(profile) {
+        let times = motion.turned;
+        evidence.push(format!(
+            "the turns step with the wrap of the angle, {times} times"
+        ));
+    } else if motion.wraps > 0 {
+        evidence.push(format!("the angle passes zero {} times", motion.wraps));
+    }
+    if motion.unset > 0 {
+        let jumps = motion.jumps.min(6) as i32;
+        score -= motion.unset as i32 * (UNUSED_BIT + jumps) + 1;
+        evidence.push(match motion.unset {
+            1 => {
+                "the top bit of the angle was never seen set: it may be narrower".to_string()
+            }
+            many => format!(
+                "the top {many} bits of the angle were never seen set: it may be narrower"
+            ),
+        });
+    }
+    if motion.stuck > 0 && counted.distinct.len() > 3 {
+        let each = (counted.distinct.len() as u32 - 1).min(STUCK_MOST);
+        score -= (motion.stuck * each) as i32;
+        evidence.push(match motion.stuck {
+            1 => "the lowest bit of the angle never changes".to_string(),
+            many => format!("the lowest {many} bits of the angle never change"),
+        });
+    }
+    score
+}
+
+/// Whether turns and angle stand side by side, so that where one ends cannot be seen.
+pub(super) fn is_one_number(profile: &Profile) -> bool {
+    profile.medium() == Medium::Bits
+}
+
+/// The angle with its bytes in the other order.
+fn swapped(profile: &Profile, values: &Values) -> Values {
+    let spare = u64::BITS - profile.angle_bits.next_multiple_of(8);
+    let other = |angle: u64| bits::above(angle.swap_bytes(), spare);
+    Values {
+        angle: values.angle.map(other),
+        address: values.address,
+        ..Values::default()
+    }
+}
+
+/// What else speaks for a profile or against it.
+fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32 {
+    let mut score = 0;
+    if counted.preamble {
+        score += PREAMBLE;
+        evidence.push("the lines begin with the preamble of these encoders".to_string());
+    }
+    if counted.named {
+        score += NAMED;
+        evidence.push(format!(
+            "the encoder identity says {} bits",
+            profile.angle_bits
+        ));
+    }
+    if let Some((least, most)) = counted.temperatures {
+        let usual = ROOM.contains(&least) && ROOM.contains(&most);
+        score += if usual { LIKELY_HEAT } else { -LIKELY_HEAT };
+    }
+    if profile.format == Format::Asi4 && counted.good >= 4 {
+        score += LINES;
+        evidence.push("every line is digits with CR and LF".to_string());
+    }
+    let single = matches!(profile.format, Format::Asi1 | Format::Ssi7);
+    if single && profile.angle_bits == profile.format.default_profile().angle_bits {
+        score += OWN_WIDTH;
+        evidence.push("the width of the IP-75".to_string());
+    }
+    if counted.flickers > 0 {
+        score -= (counted.flickers * FLICKERS).min(FLICKERS_MOST);
+        evidence.push(format!(
+            "error, warning or status change {} times",
+            counted.flickers
+        ));
+    }
+    if counted.both * 2 > counted.good && counted.good > 0 {
+        score -= BOTH;
+        evidence.push("error and warning are set together".to_string());
+    }
+    if let Some(more) = counted.addresses.len().checked_sub(1).filter(|more| *more > 0) {
+        score -= more as i32 * ADDRESS;
+        evidence.push(format!("{} addresses answer", more + 1));
+    }
+    score
+}
+
+/// Whether the first frames pass often enough to look at the others.
+fn is_promising(decoder: &Decoder, dump: &Dump) -> bool {
+    let profile = decoder.profile();
+    match profile.medium() {
+        Medium::Text => true,
+        Medium::Bits => {
+            let count = dump.lines.len();
+            if count <= FIRST {
+                return true;
+            }
+            let stride = count / FIRST;
+            let few = kept(dump, &|index| index.is_multiple_of(stride) && index / stride < FIRST);
+            let summary = decoder.dump(&few, &mut |_| {});
+            (summary.frames - summary.bad) * 3 >= FIRST as u64
+        }
+        Medium::Bytes => {
+            let bytes = dump.bytes();
+            let front = bytes.get(..FRONT).unwrap_or(&bytes);
+            let mut passes = 0;
+            let mut longest = 1;
+            for start in 0..front.len() {
+                let rest = front.get(start..).unwrap_or_default();
+                let layout = decoder.layout(rest);
+                let Some(layout) = layout else { continue };
+                longest = longest.max(layout.len / 8);
+                let frame = rest.get(..layout.len / 8);
+                passes += usize::from(
+                    frame.is_some_and(|frame| layout.holds(Bits::of_bytes(frame))),
+                );
+            }
+            passes * longest * 8 >= front.len()
+        }
+    }
+}
+
+/// Bits of a frame that are right by chance rarely: its checks, and a control field's pattern.
+pub(crate) fn check_width(frame: &Frame<'_>) -> i32 {
+    let profile = &frame.layout.shape.profile;
+    let fields = frame.layout.fields().filter(|field| match field.row.role {
+        Role::Crc => true,
+        Role::Parity => field.is_binding(),
+        Role::Framing if profile.medium() == Medium::Bits => {
+            !frame.layout.shape.preamble && field.row.constant.is_some_and(|constant| constant > 0)
+        }
+        Role::Framing => field.row.constant.is_some(),
+        _ => false,
+    });
+    let width = fields.map(|field| field.width as i32).sum();
+    match profile.format {
+        // Any list of small numbers looks like it.
+        Format::Asi4 => width / 4,
+        _ => width,
+    }
+}
