@@ -76,11 +76,12 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
     broken?;
     writeln!(out, "{}", summary.record())?;
     out.flush()?;
-    for place in &dump.unread {
+    for mark in &dump.unread().places {
+        let place = mark.at.start as usize..mark.at.end as usize;
         eprintln!(
             "decode: not readable, left out: {:?} at byte {}",
-            &text[place.clone()],
-            place.start
+            text.get(place).unwrap_or_default(),
+            mark.at.start
         );
     }
     Ok(())

@@ -61,6 +61,19 @@ impl<'a> Bits<'a> {
         }
     }
 
+    /// The first `len` bits, or all where there are fewer.
+    ///
+    /// ```
+    /// use encoderscope::bits::Bits;
+    /// assert_eq!(Bits::of_bytes(&[0x12, 0x34]).prefix(7).bytes(), [0x12]);
+    /// ```
+    #[must_use]
+    pub fn prefix(self, len: usize) -> Self {
+        let len = len.min(self.len);
+        let bytes = self.bytes.get(..len.div_ceil(8)).unwrap_or_default();
+        Self { bytes, len }
+    }
+
     /// Number of bits.
     #[must_use]
     pub const fn len(self) -> usize {

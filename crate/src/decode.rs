@@ -2,13 +2,16 @@
 
 mod leads;
 mod lines;
+mod pass;
+
+pub use pass::Pass;
 
 use crate::{
     bits::{self, BitString, Bits, Span},
     dump::Dump,
     explain::Note,
     format::{Format, Medium, asi1, asi4, biss_c, bus, period, ssi, ssi_tree, ssi7, t485},
-    framing::{Framer, Piece, PieceKind, Why},
+    framing::Why,
     layout::{Resolved, Shape},
     profile::{Profile, ProfileError},
     reading::{Fault, FaultKind, Reading, Values},
@@ -27,6 +30,8 @@ pub struct Frame<'a> {
     pub bits: Bits<'a>,
     /// Whether it is certain that a frame begins here, not one byte off.
     pub sure: bool,
+    /// Offset of the request that it answers, in bytes, where the dump has marked one.
+    pub request: Option<u64>,
 }
 
 impl Frame<'_> {
@@ -245,46 +250,14 @@ impl Decoder {
             layout: Cow::Borrowed(layout),
             bits: Bits::of_bytes(bytes),
             sure: true,
+            request: None,
         })
     }
 
     /// Decodes a whole dump; `sink` gets every stretch of it in order.
     pub fn dump(&self, dump: &Dump, sink: &mut dyn FnMut(Decoded<'_>)) -> Summary {
-        let mut summary = Summary::default();
-        match self.profile.medium() {
-            Medium::Bytes | Medium::Text => {
-                let bytes = dump.bytes();
-                summary.bytes = bytes.len() as u64;
-                let mut framer = Framer::at_start();
-                framer.push(self, &bytes, &mut |piece| {
-                    piece_out(piece, &mut summary, sink);
-                });
-                framer.finish(self, &mut |piece| piece_out(piece, &mut summary, sink));
-            }
-            Medium::Bits => self.lines(dump, &mut summary, sink),
-        }
-        summary
-    }
-}
-
-fn piece_out(piece: Piece<'_>, summary: &mut Summary, sink: &mut dyn FnMut(Decoded<'_>)) {
-    let bits = Bits::of_bytes(piece.bytes);
-    let start = piece.start;
-    match piece.kind {
-        PieceKind::Frame { layout, sure, .. } => {
-            let frame = Frame {
-                start,
-                layout: Cow::Borrowed(layout),
-                bits,
-                sure,
-            };
-            summary.frames += 1;
-            summary.bad += u64::from(!frame.ok());
-            sink(Decoded::Frame(frame));
-        }
-        PieceKind::Skip(why) => {
-            summary.skipped += piece.bytes.len() as u64;
-            sink(Decoded::Skip { start, bits, why });
-        }
+        let mut pass = Pass::new();
+        pass.finish(self, dump, sink);
+        pass.summary()
     }
 }

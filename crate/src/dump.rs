@@ -1,60 +1,103 @@
 //! Pasted text to bytes and bits.
 //!
-//! Reads hexadecimal bytes with any separators and prefixes (`1a 20`, `0x1A,`, `1A20`, `\x1a`)
-//! and strings of 0 and 1; of text streams, lines of decimal numbers too. What cannot be read is kept, with its place.
+//! Whatever a terminal, an analyser, a hexdump, a source file or an e-mail shows of bytes is
+//! read: digits with any separators and prefixes, beside offsets, times, directions, comments
+//! and ordinary text. What kind of writing it is is decided once, over the head of the text;
+//! then every line is read by itself, so that text of any length can come in pieces. What is
+//! no data is kept with its place, and so is what should be data and cannot be read.
 
-use crate::{bits::BitString, format::Medium};
-use alloc::{format, vec::Vec};
-use core::ops::Range;
+mod clean;
+mod direction;
+mod line;
+mod marks;
+mod offsets;
+mod prose;
+mod reader;
+mod stamp;
+mod survey;
+mod table;
+mod token;
+mod writing;
 
-/// Digits of the longest number that is taken for one in a text stream; longer runs are bytes.
-const LONGEST_NUMBER: usize = 6;
+pub use direction::Direction;
+pub use marks::{Dropped, Mark, Marks};
+pub use reader::Reader;
+pub use writing::Writing;
 
-/// A parsed dump.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+use crate::{
+    bits::{BitString, Bits},
+    format::Medium,
+};
+use alloc::vec::Vec;
+
+/// Lines between two places that are known without adding up.
+const STRIDE: usize = 64;
+/// Bits of the longest line; what is longer is several lines.
+const LONGEST: usize = 1_000_000_000;
+/// What stands for the time of a line that has none.
+const NO_TIME: f64 = f64::NEG_INFINITY;
+
+/// A parsed dump: the data of all lines in a row, and where each line begins.
+///
+/// ```
+/// use encoderscope::{dump::{Direction, parse}, format::Medium};
+/// let dump = parse("[12:00:00.250] TX: 64\n[12:00:00.251] RX: 12 34 56", Medium::Bytes);
+/// let line = dump.line(1).ok_or("no line")?;
+/// assert_eq!((line.start, line.direction), (1, Some(Direction::Received)));
+/// assert_eq!(line.bits.bytes(), [0x12, 0x34, 0x56]);
+/// assert_eq!(dump.writing().name(), "terminal log with times");
+/// # Ok::<(), &str>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dump {
-    /// Lines with something readable in them.
-    pub lines: Vec<Line>,
-    /// Where in the text unreadable tokens stand, in bytes.
-    pub unread: Vec<Range<usize>>,
+    data: Vec<u8>,
+    /// Bits of each line.
+    lens: Vec<u32>,
+    /// Where each `STRIDE`th line begins.
+    stops: Vec<Stop>,
+    /// Where the next line will begin.
+    end: Stop,
+    /// Seconds, one a line, where any line has a time.
+    times: Vec<f64>,
+    /// One a line, where any line has a direction.
+    directions: Vec<Option<Direction>>,
+    binary: bool,
+    writing: Writing,
+    dropped: Marks,
+    unread: Marks,
+}
+
+/// Where a line begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Stop {
+    /// In the data, in bytes.
+    byte: u64,
+    /// Bits of the lines before it, without what fills their last bytes.
+    bits: u64,
+}
+
+impl Stop {
+    const fn behind(self, len: u32) -> Self {
+        Self {
+            byte: self.byte + len.div_ceil(8) as u64,
+            bits: self.bits + len as u64,
+        }
+    }
 }
 
 /// A line of a dump.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Line {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line<'a> {
     /// What it holds.
-    pub bits: BitString,
+    pub bits: Bits<'a>,
     /// Whether it was written as a string of 0 and 1.
     pub binary: bool,
-}
-
-impl Dump {
-    /// Whether the dump was written as strings of 0 and 1.
-    #[must_use]
-    pub fn is_bits(&self) -> bool {
-        !self.lines.is_empty() && self.lines.iter().all(|line| line.binary)
-    }
-
-    /// A dump of bytes that nobody has written down.
-    #[must_use]
-    pub fn of_bytes(bytes: &[u8]) -> Self {
-        let bits = BitString::of_bytes(bytes.into());
-        let binary = false;
-        Self {
-            lines: Vec::from([Line { bits, binary }]),
-            unread: Vec::new(),
-        }
-    }
-
-    /// All bytes as one stream.
-    #[must_use]
-    pub fn bytes(&self) -> Vec<u8> {
-        self.lines
-            .iter()
-            .flat_map(|line| line.bits.as_bits().bytes())
-            .copied()
-            .collect()
-    }
+    /// Offset of the first bit in the stream: bytes, or bits where the dump is bit strings.
+    pub start: u64,
+    /// When it came, in seconds on the clock of the dump.
+    pub time: Option<f64>,
+    /// Which way it went.
+    pub direction: Option<Direction>,
 }
 
 /// Parses text; what 0 and 1 mean depends on what the format consists of.
@@ -62,156 +105,222 @@ impl Dump {
 /// ```
 /// use encoderscope::{dump::parse, format::Medium};
 /// assert_eq!(parse("{0x1A, 0x20}, \\x37", Medium::Bytes).bytes(), [0x1a, 0x20, 0x37]);
-/// assert_eq!(parse("1101 0000 1", Medium::Bits).lines[0].bits.as_bits().len(), 9);
+/// let bits = parse("1101 0000 1", Medium::Bits);
+/// assert_eq!(bits.line(0).map(|line| line.bits.len()), Some(9));
 /// ```
 #[must_use]
 pub fn parse(text: &str, medium: Medium) -> Dump {
-    // Files may begin with a mark of their encoding; blanks keep the places of what follows.
-    let blank;
-    let text = match text.strip_prefix('\u{feff}') {
-        Some(rest) => {
-            blank = format!("   {rest}");
-            &blank
-        }
-        None => text,
-    };
-    let mut dump = Dump::default();
-    if medium == Medium::Text && is_decimal(text) {
-        for line in text.lines().map(bare).filter(|line| !line.is_empty()) {
-            let at = line.as_ptr() as usize - text.as_ptr() as usize;
-            match is_number(line) {
-                true => dump.lines.push(decimal_line(line)),
-                false => dump.unread.push(at..at + line.len()),
-            }
-        }
-        return dump;
-    }
-    let all: Vec<Token<'_>> = text.lines().flat_map(tokens_of).collect();
-    let binary = match medium {
-        Medium::Bytes | Medium::Text => {
-            let octet = |token: &Token<'_>| token.binary().is_some_and(|digits| digits.len() == 8);
-            all.iter().all(octet)
-        }
-        Medium::Bits => is_binary(&all),
-    };
-    let mut at = 0;
-    for line in text.split('\n') {
-        let tokens: Vec<Token<'_>> = tokens_of(line).collect();
-        let mut bits = BitString::default();
-        for token in &tokens {
-            if !token.read(binary, &mut bits) {
-                let start = at + token.at;
-                dump.unread.push(start..start + token.text.len());
-            }
-        }
-        if !bits.as_bits().is_empty() {
-            dump.lines.push(Line {
-                bits,
-                binary: binary && medium == Medium::Bits,
-            });
-        }
-        at += line.len() + 1;
-    }
-    dump
+    let mut reader = Reader::new(medium, text);
+    reader.push(text.as_bytes());
+    reader.finish()
 }
 
-/// Whether the text is what a terminal shows of a stream of decimal numbers, one a line: then
-/// there is no line feed among its bytes, as there is in every dump of such a stream.
-fn is_decimal(text: &str) -> bool {
-    let feeds = |token: Token<'_>| {
-        let token = token.text.to_ascii_lowercase();
-        token.trim_start_matches("0x") == "0a" || token.ends_with("0d0a")
-    };
-    !text.lines().flat_map(tokens_of).any(feeds) && text.lines().any(|line| is_number(bare(line)))
-}
-
-/// A line without what separates it from the next.
-fn bare(line: &str) -> &str {
-    line.trim_matches(|letter: char| letter.is_whitespace() || ",;".contains(letter))
-}
-
-fn is_number(line: &str) -> bool {
-    (1..=LONGEST_NUMBER).contains(&line.len()) && line.bytes().all(|digit| digit.is_ascii_digit())
-}
-
-/// A number as it was on the wire.
-fn decimal_line(number: &str) -> Line {
-    let mut bytes = Vec::from(number);
-    bytes.extend(*b"\r\n");
-    Line {
-        bits: BitString::of_bytes(bytes),
-        binary: false,
-    }
-}
-
-/// A run of characters without separators.
-struct Token<'a> {
-    text: &'a str,
-    at: usize,
-}
-
-fn tokens_of(line: &str) -> impl Iterator<Item = Token<'_>> {
-    let separates = |letter: char| letter.is_whitespace() || ",;|{}[]()\"'_-:".contains(letter);
-    line.split(separates)
-        .filter(|text| !text.is_empty())
-        .map(move |text| Token {
-            text,
-            at: text.as_ptr() as usize - line.as_ptr() as usize,
-        })
-}
-
-/// A dump is binary when it has nothing but 0 and 1 and does not look like hexadecimal pairs.
-fn is_binary(tokens: &[Token<'_>]) -> bool {
-    let digits: Option<usize> = tokens
-        .iter()
-        .map(|token| token.binary().map(str::len))
-        .sum();
-    let pairs = tokens.iter().all(|token| token.text.len() == 2);
-    let prefixed = tokens.iter().any(|token| token.text.starts_with("0b"));
-    digits.is_some_and(|digits| digits >= 8 && !pairs || prefixed)
-}
-
-impl<'a> Token<'a> {
-    /// The digits of a string of 0 and 1.
-    fn binary(&self) -> Option<&'a str> {
-        let digits = self.text.strip_prefix("0b").unwrap_or(self.text);
-        (!digits.is_empty() && digits.bytes().all(|digit| matches!(digit, b'0' | b'1')))
-            .then_some(digits)
-    }
-
-    /// Appends what the token holds; `false` when it cannot be read.
-    fn read(&self, binary: bool, out: &mut BitString) -> bool {
-        if binary {
-            let Some(digits) = self.binary() else {
-                return false;
-            };
-            digits.bytes().for_each(|digit| out.push(digit == b'1'));
-            return true;
-        }
-        let mut bytes = Vec::new();
-        // Assemblers write 1Ah, and some terminals single digits.
-        let text = match self.text.strip_suffix(['h', 'H']) {
-            Some(digits) if !digits.contains("\\x") => digits,
-            _ => self.text,
+impl Dump {
+    /// A dump of bytes that nobody has written down.
+    #[must_use]
+    pub fn of_bytes(bytes: impl Into<Vec<u8>>) -> Self {
+        let mut dump = Self {
+            data: bytes.into(),
+            ..Self::default()
         };
-        for part in text.split("\\x").filter(|part| !part.is_empty()) {
-            let digits = part.strip_prefix("0x").or_else(|| part.strip_prefix("0X"));
-            let digits = digits.unwrap_or(part);
-            let whole = digits.len().is_multiple_of(2) || digits.len() == 1;
-            if digits.is_empty() || !whole || !digits.bytes().all(|digit| digit.is_ascii_hexdigit())
-            {
-                return false;
-            }
-            for pair in digits.as_bytes().chunks(2) {
-                let pair = core::str::from_utf8(pair).unwrap_or_default();
-                bytes.push(u8::from_str_radix(pair, 16).unwrap_or_default());
-            }
+        while dump.end.byte < dump.data.len() as u64 {
+            let left = dump.data.len() - dump.end.byte as usize;
+            dump.close(left.min(LONGEST / 8) * 8, None, None);
         }
-        for byte in &bytes {
-            for place in (0..8).rev() {
-                out.push(crate::bits::bit(u64::from(*byte), place));
-            }
+        dump
+    }
+
+    /// A dump of bit strings that nobody has written down, each with its time in seconds.
+    ///
+    /// ```
+    /// use encoderscope::{bits::BitString, dump::Dump};
+    /// let lines = [(BitString::zeros(25), Some(0.5)), (BitString::zeros(25), None)];
+    /// let dump = Dump::of_lines(lines);
+    /// let starts: Vec<_> = dump.lines().map(|line| (line.start, line.time)).collect();
+    /// assert_eq!(starts, [(0, Some(0.5)), (25, None)]);
+    /// ```
+    #[must_use]
+    pub fn of_lines(lines: impl IntoIterator<Item = (BitString, Option<f64>)>) -> Self {
+        let mut dump = Self {
+            binary: true,
+            writing: Writing::captured(),
+            ..Self::default()
+        };
+        for (bits, time) in lines {
+            let len = bits.as_bits().len().min(LONGEST);
+            dump.data
+                .extend_from_slice(&bits.as_bits().bytes()[..len.div_ceil(8)]);
+            dump.close(len, time, None);
         }
-        !bytes.is_empty()
+        dump
+    }
+
+    /// The same dump with other data in its lines; those that come to nothing are left out.
+    pub(crate) fn map_lines(&self, change: &mut dyn FnMut(Line<'_>) -> BitString) -> Self {
+        let mut changed = Self {
+            binary: self.binary,
+            writing: self.writing.clone(),
+            ..Self::default()
+        };
+        for line in self.lines() {
+            let bits = change(line);
+            let len = bits.as_bits().len().min(LONGEST);
+            let data = bits.as_bits().bytes().get(..len.div_ceil(8));
+            changed.data.extend_from_slice(data.unwrap_or_default());
+            changed.close(len, line.time, line.direction);
+        }
+        changed
+    }
+
+    /// The lines with something readable in them.
+    #[must_use]
+    pub fn lines(&self) -> impl ExactSizeIterator<Item = Line<'_>> + '_ {
+        self.lines_from(0)
+    }
+
+    pub(crate) fn lines_from(&self, first: usize) -> impl ExactSizeIterator<Item = Line<'_>> + '_ {
+        let first = first.min(self.len());
+        let mut at = self.stop(first);
+        (first..self.len()).map(move |index| {
+            let line = self.line_of(index, at);
+            at = at.behind(self.lens[index]);
+            line
+        })
+    }
+
+    /// A line.
+    #[must_use]
+    pub fn line(&self, index: usize) -> Option<Line<'_>> {
+        (index < self.len()).then(|| self.line_of(index, self.stop(index)))
+    }
+
+    /// Number of lines.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.lens.len()
+    }
+
+    /// Whether nothing was readable.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.lens.is_empty()
+    }
+
+    /// The index of the line that holds the offset `start` of the stream; beyond the end the
+    /// last one.
+    #[must_use]
+    pub fn line_at(&self, start: u64) -> usize {
+        self.line_where(|stop| {
+            let place = if self.binary { stop.bits } else { stop.byte };
+            place <= start
+        })
+    }
+
+    /// The index of the line that holds a byte of the stream.
+    pub(crate) fn line_at_byte(&self, byte: u64) -> usize {
+        self.line_where(|stop| stop.byte <= byte)
+    }
+
+    /// The last line whose place is one of the first ones, for which `holds`.
+    fn line_where(&self, holds: impl Fn(&Stop) -> bool) -> usize {
+        let block = self.stops.partition_point(&holds).saturating_sub(1);
+        let first = block * STRIDE;
+        let mut at = self.stops.get(block).copied().unwrap_or_default();
+        let rest = self.lens.get(first..).unwrap_or_default();
+        let behind = rest.iter().take_while(|len| {
+            at = at.behind(**len);
+            holds(&at)
+        });
+        (first + behind.count()).min(self.len().saturating_sub(1))
+    }
+
+    /// Everything as one stream, sent and received, in order.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        self.data.get(..self.end.byte as usize).unwrap_or_default()
+    }
+
+    /// Whether the dump was written as strings of 0 and 1, so that offsets count bits.
+    #[must_use]
+    pub const fn is_bits(&self) -> bool {
+        self.binary && !self.is_empty()
+    }
+
+    /// What kind of writing the text was taken for.
+    #[must_use]
+    pub const fn writing(&self) -> &Writing {
+        &self.writing
+    }
+
+    /// What of the text is not data.
+    #[must_use]
+    pub const fn dropped(&self) -> &Marks {
+        &self.dropped
+    }
+
+    /// What of the text should be data and cannot be read.
+    #[must_use]
+    pub const fn unread(&self) -> &Marks {
+        &self.unread
+    }
+
+    /// Where a line begins in [`Dump::bytes`].
+    pub(crate) fn byte_of(&self, index: usize) -> u64 {
+        self.stop(index).byte
+    }
+
+    /// Whether any line is marked as sent or received.
+    pub(crate) const fn has_directions(&self) -> bool {
+        !self.directions.is_empty()
+    }
+
+    fn stop(&self, index: usize) -> Stop {
+        let Some(stop) = self.stops.get(index / STRIDE) else {
+            return self.end;
+        };
+        let before = self.lens.get(index / STRIDE * STRIDE..index);
+        let behind = |at: Stop, len: &u32| at.behind(*len);
+        before.unwrap_or_default().iter().fold(*stop, behind)
+    }
+
+    fn line_of(&self, index: usize, at: Stop) -> Line<'_> {
+        let rest = self.data.get(at.byte as usize..).unwrap_or_default();
+        Line {
+            bits: Bits::of_bytes(rest).prefix(self.lens[index] as usize),
+            binary: self.binary,
+            start: if self.binary { at.bits } else { at.byte },
+            time: self
+                .times
+                .get(index)
+                .copied()
+                .filter(|time| *time != NO_TIME),
+            direction: self.directions.get(index).copied().flatten(),
+        }
+    }
+
+    /// Makes a line of `len` bits of the data behind the last line.
+    fn close(&mut self, len: usize, time: Option<f64>, direction: Option<Direction>) {
+        if len == 0 {
+            return;
+        }
+        let before = self.len();
+        if before.is_multiple_of(STRIDE) {
+            self.stops.push(self.end);
+        }
+        let len = u32::try_from(len).unwrap_or(u32::MAX);
+        self.lens.push(len);
+        self.end = self.end.behind(len);
+        if time.is_some() && self.times.is_empty() {
+            self.times.resize(before, NO_TIME);
+        }
+        if time.is_some() || !self.times.is_empty() {
+            self.times.push(time.unwrap_or(NO_TIME));
+        }
+        if direction.is_some() && self.directions.is_empty() {
+            self.directions.resize(before, None);
+        }
+        if direction.is_some() || !self.directions.is_empty() {
+            self.directions.push(direction);
+        }
     }
 }

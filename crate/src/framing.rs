@@ -189,6 +189,15 @@ impl Framer {
         }
     }
 
+    /// A framer at the start of a stretch that begins at an offset in the input, and probably
+    /// with a whole frame.
+    #[must_use]
+    pub const fn at_offset(start: u64) -> Self {
+        let mut framer = Self::at_start();
+        framer.base = start;
+        framer
+    }
+
     /// A framer that joins a running stream somewhere.
     #[must_use]
     pub const fn joining() -> Self {

@@ -1,14 +1,13 @@
 //! Bit formats: a line of a dump is a frame.
 
-use super::{Decoded, Decoder, Frame, Shapes, Summary};
+use super::{Decoder, Frame, Shapes};
 use crate::{
     bits::Bits,
-    dump::Dump,
     format::{Format, biss_c, ssi, ssi_tree},
     framing::Why,
     layout::{Layout, Resolved, Shape},
 };
-use alloc::{borrow::Cow, vec::Vec};
+use alloc::borrow::Cow;
 
 impl Decoder {
     /// Reads one line of a bit format.
@@ -18,7 +17,7 @@ impl Decoder {
     /// The line is too short for a frame.
     pub fn line<'a>(&'a self, bits: Bits<'a>) -> Result<Frame<'a>, Why> {
         let shapes = self.shapes(bits);
-        let chosen = self.likeliest(core::iter::once((&shapes, bits)));
+        let chosen = self.likeliest(core::iter::once(bits));
         self.line_as(&shapes, bits, chosen)
     }
 
@@ -39,18 +38,21 @@ impl Decoder {
     }
 
     /// Which of the shapes holds its CRC in most lines; of equals the first.
-    fn likeliest<'a>(
-        &self,
-        lines: impl Iterator<Item = (&'a Result<Shapes, Why>, Bits<'a>)>,
-    ) -> usize {
+    pub(super) fn likeliest<'a>(&self, lines: impl Iterator<Item = Bits<'a>>) -> usize {
         let mut passes = [0usize; 3];
-        for (shapes, bits) in lines {
+        for bits in lines {
+            let shapes = self.shapes(bits);
             for (count, shape) in passes.iter_mut().zip(shapes.iter().flatten()) {
                 *count += usize::from(shape.is_some_and(|shape| self.shaped(shape).holds(bits)));
             }
         }
         let best = passes.iter().max().copied().unwrap_or(0);
         passes.iter().position(|count| *count == best).unwrap_or(0)
+    }
+
+    /// Reads one line in the shape that the lines of its dump have.
+    pub(super) fn line_of<'a>(&'a self, bits: Bits<'a>, chosen: usize) -> Result<Frame<'a>, Why> {
+        self.line_as(&self.shapes(bits), bits, chosen)
     }
 
     fn line_as<'a>(
@@ -74,6 +76,7 @@ impl Decoder {
             layout,
             bits,
             sure,
+            request: None,
         })
     }
 
@@ -86,49 +89,6 @@ impl Decoder {
         match self.layouts.first() {
             Some(layout) if layout.shape == shape => Cow::Borrowed(layout),
             _ => Cow::Owned(Resolved::new(self.table(), shape)),
-        }
-    }
-
-    pub(super) fn lines(
-        &self,
-        dump: &Dump,
-        summary: &mut Summary,
-        sink: &mut dyn FnMut(Decoded<'_>),
-    ) {
-        let all: Vec<_> = dump
-            .lines
-            .iter()
-            .map(|line| self.shapes(line.bits.as_bits()))
-            .collect();
-        let lines = || dump.lines.iter().map(|line| line.bits.as_bits());
-        let chosen = self.likeliest(all.iter().zip(lines()));
-        let mut start = 0;
-        let as_bits = dump.is_bits();
-        for (shapes, bits) in all.iter().zip(lines()) {
-            let bytes = bits.bytes().len() as u64;
-            let here = if as_bits { start } else { start / 8 };
-            start += if as_bits {
-                bits.len()
-            } else {
-                bits.bytes().len() * 8
-            } as u64;
-            summary.bytes += bytes;
-            match self.line_as(shapes, bits, chosen) {
-                Ok(mut frame) => {
-                    frame.start = here;
-                    summary.frames += 1;
-                    summary.bad += u64::from(!frame.ok());
-                    sink(Decoded::Frame(frame));
-                }
-                Err(why) => {
-                    summary.skipped += bytes;
-                    sink(Decoded::Skip {
-                        start: here,
-                        bits,
-                        why,
-                    });
-                }
-            }
         }
     }
 }

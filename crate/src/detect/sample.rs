@@ -3,10 +3,10 @@
 use super::Change;
 use crate::{
     bits::{BitString, Bits},
-    dump::{Dump, Line},
+    dump::{Direction, Dump, Line},
     format::Medium,
 };
-use alloc::{collections::BTreeMap, vec::Vec};
+use alloc::collections::BTreeMap;
 
 /// Bytes of a dump that are looked at; of a longer one, three stretches.
 const ENOUGH: usize = 256 * 1024;
@@ -65,40 +65,32 @@ impl Sample {
     }
 }
 
-/// The bits of every line.
+/// The bits of every line that is not marked as sent by the host.
 pub(super) fn lines(dump: &Dump) -> impl Iterator<Item = Bits<'_>> {
-    dump.lines.iter().map(|line| line.bits.as_bits())
+    let received = |line: &Line<'_>| line.direction != Some(Direction::Sent);
+    dump.lines().filter(received).map(|line| line.bits)
 }
 
 /// A dump with other bits in its lines; lines that come to nothing are left out.
 pub(super) fn mapped(dump: &Dump, change: &mut dyn FnMut(Bits<'_>) -> BitString) -> Dump {
-    let changed = dump.lines.iter().map(|line| Line {
-        bits: change(line.bits.as_bits()),
-        binary: line.binary,
-    });
-    Dump {
-        lines: changed
-            .filter(|line| !line.bits.as_bits().is_empty())
-            .collect(),
-        unread: Vec::new(),
-    }
+    dump.map_lines(&mut |line| change(line.bits))
 }
 
 /// The lines of a dump that `keep` names.
 pub(super) fn kept(dump: &Dump, keep: &dyn Fn(usize) -> bool) -> Dump {
-    let lines = dump.lines.iter().enumerate();
-    Dump {
-        lines: lines
-            .filter(|(index, _)| keep(*index))
-            .map(|(_, line)| line.clone())
-            .collect(),
-        unread: Vec::new(),
-    }
+    let mut index = 0;
+    mapped(dump, &mut |bits| {
+        index += 1;
+        match keep(index - 1) {
+            true => copied(bits),
+            false => BitString::default(),
+        }
+    })
 }
 
 /// The front, the middle and the end of a dump that is too long to be looked at whole.
 fn stretches(dump: &Dump) -> Dump {
-    let total: usize = lines(dump).map(|line| line.bytes().len()).sum();
+    let total = dump.bytes().len();
     if total <= ENOUGH {
         return dump.clone();
     }

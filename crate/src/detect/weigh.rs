@@ -136,7 +136,12 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     }
     let mut counted = Counted::default();
     let mut unsure = Counted::default();
+    let mut others = 0;
     let summary = decoder.dump(dump, &mut |decoded| match decoded {
+        // The dump says that another command was asked.
+        Decoded::Frame(frame) if frame.layout.shape.profile.command != profile.command => {
+            others += 1;
+        }
         Decoded::Frame(frame) if frame.ok() => counted.add(&profile, &frame),
         Decoded::Frame(frame) if frame.layout.holds(frame.bits) => unsure.add(&profile, &frame),
         Decoded::Skip { why, bits, .. } if why == Why::Request => {
@@ -165,7 +170,7 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     let motion = counted.track.motion(&profile);
     let mut evidence = Vec::new();
     let proved = count.saturating_mul(counted.check_bits);
-    let bad = summary.frames - counted.good;
+    let bad = summary.frames - counted.good - others;
     if counted.check_bits > 0 {
         evidence.push(format!(
             "the check holds in {} of {} frames",
@@ -368,7 +373,7 @@ fn is_promising(decoder: &Decoder, dump: &Dump) -> bool {
     match profile.medium() {
         Medium::Text => true,
         Medium::Bits => {
-            let count = dump.lines.len();
+            let count = dump.len();
             if count <= FIRST {
                 return true;
             }
@@ -379,7 +384,7 @@ fn is_promising(decoder: &Decoder, dump: &Dump) -> bool {
         }
         Medium::Bytes => {
             let bytes = dump.bytes();
-            let front = bytes.get(..FRONT).unwrap_or(&bytes);
+            let front = bytes.get(..FRONT).unwrap_or(bytes);
             let mut passes = 0;
             let mut longest = 1;
             for start in 0..front.len() {

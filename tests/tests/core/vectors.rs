@@ -286,7 +286,7 @@ fn rs485(name: &str, vector: &Value) {
     let decoder = of_model(&[]);
     let text = hex_or_bits(vector);
     if command == Command::Zero {
-        let bytes = paste(&decoder, text).bytes();
+        let bytes = paste(&decoder, text).bytes().to_vec();
         let frame = decoder.frame(&bytes).unwrap();
         assert!(frame.ok(), "{name}");
         let values = frame.values();
@@ -373,7 +373,7 @@ fn asi1(name: &str, vector: &Value) {
         agree(name, vector, &found);
         assert_eq!(record["ok"], true, "{name}");
         assert_eq!(record["error"], raw(&notes, "valid") == 0, "{name}");
-        let bytes = paste(&decoder, text).bytes();
+        let bytes = paste(&decoder, text).bytes().to_vec();
         let values = decoder.frame(&bytes).unwrap().values();
         assert_eq!(decoder.encode(&values).into_bytes(), bytes, "{name}");
         assert_eq!(bit(raw(&notes, "marker"), 5), marker == "first", "{name}");
@@ -388,7 +388,7 @@ fn checksum(name: &str, vector: &Value) {
         other => panic!("{name}: {other}"),
     };
     let line = paste(&decoder("format=ssi"), hex_or_bits(vector));
-    let bits = line.lines.first().map(|line| line.bits.as_bits());
+    let bits = line.line(0).map(|line| line.bits);
     let bits = bits.unwrap_or(Bits::of_bytes(&[]));
     let computed = sum.compute(bits, Span::new(0, bits.len()));
     // BiSS-C sends its CRC inverted; the sources give the remainder itself.

@@ -45,7 +45,9 @@ pub(crate) fn ssi2(name: &str, vector: &Value) {
 
 /// The word of a vector as bytes.
 fn word(vector: &Value) -> Vec<u8> {
-    paste(&decoder("format=asi1"), hex_or_bits(vector)).bytes()
+    paste(&decoder("format=asi1"), hex_or_bits(vector))
+        .bytes()
+        .to_vec()
 }
 
 /// PV, ZPD and PD of an ASI1 packet in the order in which it sends them, without what stands
@@ -141,7 +143,7 @@ pub(crate) fn tree(name: &str, vector: &Value) {
     assert_eq!(hex_or_bits(vector), expected["bits_binary"], "{name}");
     for (decoder, key) in [(&binary, "bits_binary"), (&gray, "bits_gray_whole_word")] {
         let line = paste(decoder, expected[key].as_str().unwrap());
-        let values = decoder.line(line.lines[0].bits.as_bits()).unwrap().values();
+        let values = decoder.line(line.line(0).unwrap().bits).unwrap().values();
         let (record, _) = decoded(name, decoder, expected[key].as_str().unwrap());
         assert_eq!(record["ok"], true, "{name} {key}");
         let found = json!({

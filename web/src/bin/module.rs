@@ -107,9 +107,11 @@ pub fn decode(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
         ),
     });
     let unread = dump
-        .unread
+        .unread()
+        .places
         .iter()
-        .map(|place| text.get(place.clone()).unwrap_or_default().into());
+        .map(|mark| text.get(mark.at.start as usize..mark.at.end as usize))
+        .map(|token| token.unwrap_or_default().into());
     let mut record = Record::new()
         .with("frames", Value::List(frames))
         .with("skips", Value::List(skips))
@@ -137,12 +139,12 @@ pub fn explain(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
     let medium = decoder.profile().medium();
     let dump = dump::parse(text, medium);
     let bytes = dump.bytes();
-    let bits = match dump.lines.first() {
-        Some(line) if medium == Medium::Bits => line.bits.as_bits(),
-        _ => Bits::of_bytes(&bytes),
+    let bits = match dump.line(0) {
+        Some(line) if medium == Medium::Bits => line.bits,
+        _ => Bits::of_bytes(bytes),
     };
     let frame = match medium {
-        Medium::Bytes | Medium::Text => decoder.frame(&bytes),
+        Medium::Bytes | Medium::Text => decoder.frame(bytes),
         Medium::Bits => decoder.line(bits).ok(),
     };
     let frame =

@@ -130,14 +130,15 @@ fn table(profile: &Profile, text: &str) -> Table {
         }
     });
     let unread = dump
-        .unread
+        .unread()
+        .places
         .iter()
-        .filter_map(|place| text.get(place.clone()));
+        .filter_map(|mark| text.get(mark.at.start as usize..mark.at.end as usize));
     Table {
         rows,
         summary,
         unread: unread.map(ToOwned::to_owned).collect(),
-        lines: dump.lines.len(),
+        lines: dump.len(),
     }
 }
 

@@ -165,10 +165,13 @@ fn Inspect(entry: Entry, close: impl Fn() + Copy + 'static) -> impl IntoView {
 /// What a line of text asks to be sent.
 fn parse(text: &str) -> Result<Vec<u8>, String> {
     let dump = dump::parse(text, Medium::Bytes);
-    let bytes = dump.bytes();
+    let bytes = dump.bytes().to_vec();
     match bytes.len() {
-        _ if !dump.unread.is_empty() => {
-            let unread = dump.unread.iter().filter_map(|at| text.get(at.clone()));
+        _ if !dump.unread().is_empty() || !dump.dropped().is_empty() => {
+            // What is to be sent must not be guessed.
+            let marks = dump.unread().places.iter().chain(&dump.dropped().places);
+            let unread =
+                marks.filter_map(|mark| text.get(mark.at.start as usize..mark.at.end as usize));
             Err(format!(
                 "not bytes: {}",
                 unread.collect::<Vec<_>>().join(" ")
