@@ -102,6 +102,8 @@ pub struct Candidate {
     /// Bytes of good frames, and of none.
     covered: u64,
     strange: u64,
+    /// Whether the frames fit, but what they say is odd.
+    untidy: bool,
 }
 
 impl PartialEq for Candidate {
@@ -210,7 +212,7 @@ impl Detection {
             return false;
         }
         if let Some(change) = self.changes.pop_front() {
-            let sample = self.sample.changed(change);
+            let sample = self.sample.front().changed(change);
             self.queue = hypotheses::of(&sample).into();
             self.changed = Some((change, sample));
             return true;

@@ -51,7 +51,8 @@ impl Track {
         let turns = values.turns.filter(|_| profile.turns_bits > 0);
         let all = i128::try_from(bits::codes(profile.turns_bits)).unwrap_or(i128::MAX);
         let counted = i128::from(turns.unwrap_or(0)).rem_euclid(all);
-        let place = counted.unsigned_abs() * bits::codes(profile.angle_bits) + u128::from(angle);
+        let turn = bits::codes(profile.angle_bits);
+        let place = counted.unsigned_abs() * turn + u128::from(angle) % turn;
         let series = self.series.entry((values.address, turns.is_some()));
         series.or_default().push(place);
         self.angles.push(angle);

@@ -36,6 +36,9 @@ pub(super) fn tried(profile: Profile, sample: &Sample) -> Option<Candidate> {
         // The line ends of a list of numbers were not on the wire.
         candidate.score -= 4 * candidate.distinct + LINES;
         candidate.checked = false;
+        if candidate.motion.counts {
+            candidate.score = 0;
+        }
     }
     Some(candidate)
 }
@@ -43,12 +46,12 @@ pub(super) fn tried(profile: Profile, sample: &Sample) -> Option<Candidate> {
 /// Whether a candidate is good enough to be listed after a change of the dump, and to leave no
 /// need for a search of unknown checksums.
 pub(super) fn is_strong(candidate: &Candidate) -> bool {
-    candidate.score >= PROBABLE + LEAD && proves(candidate)
+    candidate.score >= PROBABLE + LEAD && proves(candidate) && !candidate.untidy
 }
 
 /// Whether a candidate leaves no need to look for mistakes of the capture.
 pub(super) fn is_settled(candidate: &Candidate) -> bool {
-    candidate.change.is_none() && candidate.score >= CERTAIN && proves(candidate)
+    candidate.change.is_none() && candidate.score >= CERTAIN && is_strong(candidate)
         && candidate.motion.stuck == 0
 }
 
@@ -104,7 +107,7 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
 
 /// The verdict on the best candidate.
 fn alone(leader: &Candidate, lead: i32) -> Verdict {
-    let clean = leader.change.is_none() && leader.profile.own.is_none_or(|_| leader.checked);
+    let clean = leader.change.is_none() && !leader.untidy && leader.profile.own.is_none_or(|_| leader.checked);
     let enough = match leader.checked {
         true => leader.score >= CERTAIN && leader.distinct > 1,
         false => leader.score >= MOVED && leader.distinct >= MOVED_FRAMES,
@@ -116,6 +119,7 @@ fn alone(leader: &Candidate, lead: i32) -> Verdict {
     match lead {
         ..LEAD => Verdict::Ambiguous,
         SAFE_LEAD.. if clean && enough && leader.motion.stuck == 0 => Verdict::Certain,
+        _ if leader.untidy && !leader.checked => Verdict::Unlikely,
         _ if probable && clean | (leader.score >= ALONE) => Verdict::Likely,
         // So little can be many things.
         _ if leader.distinct < 3 || leader.motion.steps == 0 => Verdict::Ambiguous,

@@ -11,6 +11,10 @@ use alloc::collections::BTreeMap;
 /// Bytes of a dump that are looked at; of a longer one, three stretches.
 const ENOUGH: usize = 256 * 1024;
 
+/// Bytes, and lines, on which changes are tried.
+const FRONT: usize = 3_000;
+const FRONT_LINES: usize = 40;
+
 /// The same text, read as bytes, as bits and as lines of text.
 #[derive(Clone, Debug)]
 pub(super) struct Sample {
@@ -43,6 +47,28 @@ impl Sample {
     /// Whether it was written as strings of 0 and 1: those are clocked words.
     pub(super) fn is_bits(&self) -> bool {
         self.bits.is_bits()
+    }
+
+    /// Its front, which is enough to see whether a change of the dump makes it readable.
+    pub(super) fn front(&self) -> Self {
+        let front = |dump: &Dump| {
+            let mut left = FRONT;
+            mapped(dump, &mut |bits| {
+                let bytes = bits.bytes();
+                let part = bytes.get(..left).unwrap_or(bytes);
+                left = left.saturating_sub(bytes.len().max(FRONT / FRONT_LINES));
+                match part.len() == bytes.len() {
+                    true => copied(bits),
+                    false => BitString::of_bytes(part.into()),
+                }
+            })
+        };
+        Self {
+            bytes: front(&self.bytes),
+            bits: front(&self.bits),
+            text: front(&self.text),
+            is_decimal: self.is_decimal,
+        }
     }
 
     /// The same after a change, which a text of decimal numbers cannot undergo.

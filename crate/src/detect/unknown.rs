@@ -68,7 +68,6 @@ fn proposed(profile: Profile, dump: &Dump, found: &Found, angle: Option<Angle>) 
         return None;
     }
     candidate.verdict = Verdict::Unlikely;
-    candidate.score = candidate.score.min(found.evidence as i32);
     let mut evidence = Vec::from([
         "no known format fits; a checksum was found in the frames".to_string(),
         found.to_string(),

@@ -13,7 +13,7 @@ use crate::{
     format::{Format, Medium},
     framing::Why,
     layout::{Role, Shape},
-    profile::Profile,
+    profile::{Code, Profile},
     reading::Values,
 };
 use alloc::{
@@ -36,7 +36,7 @@ const OWN_WIDTH: i32 = 4;
 const ASKED: i32 = 8;
 /// Against: a bit of the angle that never changes, for each position, and so many at most.
 const STUCK_MOST: u32 = 8;
-/// Against: an error or warning that comes and goes, for each time, and so many at most.
+/// Against: a bit beside the position that comes and goes, for each time, and so many at most.
 const FLICKERS: i32 = 2;
 const FLICKERS_MOST: i32 = 30;
 /// Against: an error and a warning at once in every frame; another address.
@@ -47,6 +47,8 @@ pub(super) const LINES: i32 = 10;
 /// For a temperature that a chip may have, in tenths of a degree; against any other.
 const LIKELY_HEAT: i32 = 3;
 const ROOM: core::ops::RangeInclusive<i32> = 50..=900;
+/// What is left of the evidence where bits beside the position come and go without a check.
+const UNTIDY: i32 = 8;
 /// Against: the bytes of the angle in the wrong order.
 const SWAPPED: i32 = 12;
 /// Against: a counter that is no shaft.
@@ -78,8 +80,11 @@ struct Counted {
     requests: u64,
     addresses: BTreeSet<u8>,
     both: u64,
-    flickers: i32,
-    flags: Option<(Option<bool>, Option<bool>, Option<u8>)>,
+    /// Bits beside the position that changed from frame to frame, and what they were last.
+    changes: i32,
+    rest: Vec<u64>,
+    /// The angles as they stand on the wire: a Gray word hides bits that never change.
+    wires: Vec<u64>,
     /// What all readings are, so that two profiles that read alike are known.
     reads: u64,
 }
@@ -110,9 +115,16 @@ impl Counted {
             self.temperatures = Some((least.min(heat), most.max(heat)));
         }
         self.both += u64::from(values.error == Some(true) && values.warning == Some(true));
-        let flags = (values.error, values.warning, values.status);
-        self.flickers += i32::from(self.flags.is_some_and(|before| before != flags));
-        self.flags = Some(flags);
+        if profile.medium() == Medium::Bits {
+            self.wires.extend(wire(frame));
+        }
+        let rest = rest(frame);
+        let before = self.rest.iter().chain(core::iter::repeat(&0));
+        let changes = rest.iter().zip(before).map(|(now, before)| (now ^ before).count_ones());
+        if self.good > 1 {
+            self.changes += changes.sum::<u32>() as i32;
+        }
+        self.rest = rest;
         let kind = u64::from(values.speed.is_some());
         let turns = values.turns.unwrap_or(0).unsigned_abs();
         for part in [values.angle.unwrap_or(0), turns, kind] {
@@ -150,9 +162,11 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         _ => {}
     });
     // A still shaft does not tell where its frames begin, but they are of its format.
-    let placed = counted.good > 0;
+    let placed = counted.good >= unsure.good;
+    let mut unsettled = unsure.good;
     if !placed {
         unsure.requests = counted.requests;
+        unsettled = counted.good;
         counted = unsure;
     }
     let count = i32::try_from(counted.distinct.len()).unwrap_or(i32::MAX / 64);
@@ -167,10 +181,15 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     if let (Some(address), 1) = (counted.addresses.first(), counted.addresses.len()) {
         profile.address = u32::from(*address);
     }
-    let motion = counted.track.motion(&profile);
+    let mut motion = counted.track.motion(&profile);
+    let first = counted.wires.first().copied().unwrap_or(0);
+    let moved = counted.wires.iter().fold(0, |moved, wire| moved | (wire ^ first));
+    if moved > 0 {
+        motion.stuck = motion.stuck.max(moved.trailing_zeros());
+    }
     let mut evidence = Vec::new();
     let proved = count.saturating_mul(counted.check_bits);
-    let bad = summary.frames - counted.good - others;
+    let bad = summary.frames - counted.good - unsettled - others;
     if counted.check_bits > 0 {
         evidence.push(format!(
             "the check holds in {} of {} frames",
@@ -198,10 +217,12 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         score = score.min(LIKELY);
         evidence.push("where its frames begin is not certain".to_string());
     }
-    if motion.jumps * 2 > motion.steps {
+    let mut turned_round = false;
+    if profile.angle_bits > 8 && profile.medium() == Medium::Bytes {
         let other = counted.swapped.motion(&profile);
-        if other.smooth > other.jumps {
+        if other.gain > motion.gain / 2 * 3 {
             score -= SWAPPED;
+            turned_round = true;
             let why = "the angle is continuous only with its bytes in the other order";
             evidence.insert(0, why.to_string());
         }
@@ -215,10 +236,17 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     }
     score += fits(&counted, &profile, &mut evidence);
     // Without a check, words of the right length that stand still may be anything.
-    let steady = motion.jumps == 0 && counted.flickers == 0 && motion.stuck == 0;
+    let steady = motion.jumps == 0 && counted.changes == 0 && motion.stuck == 0;
     let odd = counted.both > 0 || bad + strange > 0 || motion.counts;
     if counted.check_bits <= 1 && steady && !odd {
         score = score.max(STEADY + counted.check_bits - unusual - motion.unset.min(4) as i32);
+    }
+    // Without a check, what is not steady beside the position, or jumps, is another layout.
+    let often = |count: i64| count * 4 > counted.good as i64;
+    let untidy = counted.check_bits <= 1
+        && (often(counted.changes.into()) || often(motion.jumps.into()));
+    if untidy {
+        score /= UNTIDY;
     }
     Some(Candidate {
         profile,
@@ -232,6 +260,7 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         reads: counted.reads,
         covered: counted.covered,
         strange,
+        untidy: untidy || turned_round,
     })
 }
 
@@ -244,7 +273,7 @@ fn beside(profile: &Profile, dump: &Dump) -> i32 {
         // The same word may come several times.
         _ if dump.is_bits() && profile.format == Format::SsiTree && len > 24 => FILLED,
         1 => FILLED,
-        _ if dump.is_bits() && !len.is_multiple_of(8) => CLOCKED,
+        _ if dump.is_bits() => CLOCKED,
         _ => FILLED,
     }
 }
@@ -296,7 +325,11 @@ fn moves(
         });
     }
     if motion.stuck > 0 && counted.distinct.len() > 3 {
-        let each = (counted.distinct.len() as u32 - 1).min(STUCK_MOST);
+        let most = match profile.code {
+            Code::Gray => u32::MAX,
+            Code::Binary => STUCK_MOST,
+        };
+        let each = (counted.distinct.len() as u32 - 1).min(most);
         score -= (motion.stuck * each) as i32;
         evidence.push(match motion.stuck {
             1 => "the lowest bit of the angle never changes".to_string(),
@@ -309,6 +342,22 @@ fn moves(
 /// Whether turns and angle stand side by side, so that where one ends cannot be seen.
 pub(super) fn is_one_number(profile: &Profile) -> bool {
     profile.medium() == Medium::Bits
+}
+
+fn wire(frame: &Frame<'_>) -> Option<u64> {
+    let mut fields = frame.layout.fields();
+    let angle = fields.find(|field| field.row.role == Role::Angle)?;
+    Some(frame.layout.wire(angle, frame.bits))
+}
+
+/// What a frame says beside position and checks, which seldom changes.
+fn rest(frame: &Frame<'_>) -> Vec<u64> {
+    let fields = frame.layout.fields().filter(|field| match field.row.role {
+        Role::Turns | Role::Angle | Role::Crc | Role::Parity | Role::Padding => false,
+        Role::Speed | Role::Temperature | Role::Count => false,
+        _ => field.cover.is_none(),
+    });
+    fields.map(|field| frame.layout.wire(field, frame.bits)).collect()
 }
 
 /// The angle with its bytes in the other order.
@@ -349,11 +398,16 @@ fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32
         score += OWN_WIDTH;
         evidence.push("the width of the IP-75".to_string());
     }
-    if counted.flickers > 0 {
-        score -= (counted.flickers * FLICKERS).min(FLICKERS_MOST);
+    if counted.changes > 0 {
+        let against = counted.changes.saturating_mul(FLICKERS);
+        // Without a check, bits that come and go speak for another layout.
+        score -= match counted.check_bits {
+            0 | 1 => against,
+            _ => against.min(FLICKERS_MOST),
+        };
         evidence.push(format!(
-            "error, warning or status change {} times",
-            counted.flickers
+            "bits beside the position change {} times",
+            counted.changes
         ));
     }
     if counted.both * 2 > counted.good && counted.good > 0 {

@@ -149,7 +149,7 @@ fn what_reads_alike_in_several_ways_is_named_first_and_not_certain() {
     assert_eq!((best.profile.angle_bits, best.profile.turns_bits), (13, 12));
     assert_eq!(best.profile.code.name(), "binary");
     let heat = detect(&dump_of("format=rs485 angle-bits=20 command=t", TURNING));
-    assert_eq!(heat[0].profile.command.name(), "t", "{heat:#?}");
+    assert_eq!(heat[0].profile.command.letter(), 't', "{heat:#?}");
     assert_eq!(heat[0].profile.angle_bits, 20);
 }
 
@@ -252,7 +252,7 @@ fn mistakes_of_a_capture_are_named() {
         .iter()
         .map(|line| format!("{}\r\n", hex(line)).into_bytes())
         .collect();
-    let late: Words = words_of("format=ssi7")
+    let late: Words = words_of("format=ssi angle-bits=17")
         .into_iter()
         .map(|word| word.into_iter().skip(1).chain([false]).collect())
         .collect();
@@ -261,7 +261,7 @@ fn mistakes_of_a_capture_are_named() {
         (each(&t485, |byte| !byte), Change::Inverted, Format::T485),
         (text(&headless), Change::MissingByte(0x1a), Format::T485),
         (text(&letters), Change::HexText, Format::T485),
-        (strings(&late), Change::ClockLate, Format::Ssi7),
+        (strings(&late), Change::ClockLate, Format::Ssi),
     ] {
         let found = detect(&dump);
         let best = found.iter().find(|one| one.change.is_some());
@@ -361,7 +361,7 @@ fn nothing_is_likely_in_noise() {
         let flat = |byte: u8| text(&vec![vec![byte; len]; 30]);
         dumps.push(("zeros".to_string(), flat(0)));
         dumps.push(("ones".to_string(), flat(0xff)));
-        let lines: Vec<Vec<u8>> = (0u8..40).map(|index| (0..len as u8).map(|at| index.wrapping_mul(len as u8) + at).collect()).collect();
+        let lines: Vec<Vec<u8>> = (0u8..40).map(|index| (0..len as u8).map(|at| index.wrapping_mul(len as u8).wrapping_add(at)).collect()).collect();
         dumps.push(("rising bytes".to_string(), text(&lines)));
     }
     let prose = "the quick brown fox jumps over the lazy dog, and the dog does not mind at all";
