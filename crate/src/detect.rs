@@ -30,11 +30,7 @@ use crate::{
     profile::Profile,
     record::Record,
 };
-use alloc::{
-    collections::VecDeque,
-    string::String,
-    vec::Vec,
-};
+use alloc::{collections::VecDeque, string::String, vec::Vec};
 use motion::Motion;
 use sample::Sample;
 
@@ -114,6 +110,14 @@ impl PartialEq for Candidate {
 }
 
 impl Candidate {
+    /// The candidate on a dump after a change.
+    fn after(mut self, change: Change) -> Self {
+        self.change = Some(change);
+        self.score -= CHANGED;
+        self.evidence.insert(0, change.sentence());
+        self
+    }
+
     /// The record of a candidate: its profile, verdict, evidence, and what must be changed.
     #[must_use]
     pub fn record(&self) -> Record {
@@ -194,18 +198,14 @@ impl Detection {
     /// Tries the next profile; `false` when there is nothing more to try.
     pub fn step(&mut self) -> bool {
         if let Some(profile) = self.queue.pop_front() {
-            let sample = self.changed.as_ref().map_or(&self.sample, |changed| &changed.1);
-            let change = self.changed.as_ref().map(|changed| changed.0);
-            if let Some(mut candidate) = rank::tried(profile, sample)
-                && (change.is_none() || rank::is_strong(&candidate))
-            {
-                if let Some(change) = change {
-                    candidate.change = Some(change);
-                    candidate.score -= CHANGED;
-                    candidate.evidence.insert(0, change.sentence());
-                }
-                self.found.push(candidate);
-            }
+            let found = match &self.changed {
+                None => rank::tried(profile, &self.sample),
+                Some((change, front)) => rank::tried(profile, front)
+                    .filter(rank::is_strong)
+                    .and_then(|_| rank::tried(profile, &self.sample.changed(*change)))
+                    .map(|candidate| candidate.after(*change)),
+            };
+            self.found.extend(found);
             return true;
         }
         if self.found.iter().any(rank::is_settled) {

@@ -96,9 +96,7 @@ impl Change {
                     return BitString::of_bytes(bytes.collect());
                 }
                 let mut out = BitString::default();
-                (0..bits.len())
-                    .rev()
-                    .for_each(|at| out.push(bits.bit(at)));
+                (0..bits.len()).rev().for_each(|at| out.push(bits.bit(at)));
                 out
             }),
             Self::Inverted => mapped(dump, &mut |bits| {

@@ -20,7 +20,11 @@ pub(super) const fn unusual(profile: &Profile) -> i32 {
     let counted = matches!(profile.turns_bits, 0 | 16);
     match profile.format {
         Format::Ssi | Format::Rs485 | Format::Bus | Format::Period => {
-            if native && counted { 0 } else { UNUSUAL }
+            if native && counted {
+                0
+            } else {
+                UNUSUAL
+            }
         }
         Format::BissC => match (native && counted, profile.status_bits) {
             (true, 6) => 0,
@@ -30,12 +34,20 @@ pub(super) const fn unusual(profile: &Profile) -> i32 {
             _ => UNUSUAL,
         },
         Format::T485 => {
-            if matches!(profile.angle_bits, 17 | 23) { 0 } else { UNUSUAL }
+            if matches!(profile.angle_bits, 17 | 23) {
+                0
+            } else {
+                UNUSUAL
+            }
         }
         Format::Asi1 | Format::Asi4 => 0,
         Format::Ssi7 => 1,
         Format::SsiTree => {
-            let parity = if matches!(profile.parity, Parity::None) { 0 } else { 1 };
+            let parity = if matches!(profile.parity, Parity::None) {
+                0
+            } else {
+                1
+            };
             // A number at the end of a longer word.
             let sum = profile.turns_bits + profile.angle_bits + parity as u32;
             let right = match profile.align {
@@ -131,8 +143,16 @@ fn bytes(sample: &Sample, all: &mut Vec<Profile>) {
 fn words(sample: &Sample, len: u32, all: &mut Vec<Profile>) {
     let exact = sample.is_bits() && !len.is_multiple_of(8);
     // Strings have the length that was clocked; bytes are filled up.
-    let least = if exact { len.saturating_sub(2) } else { len.saturating_sub(SPARE) };
-    let sides: &[Justify] = if exact { &[Justify::Right] } else { &[Justify::Right, Justify::Left] };
+    let least = if exact {
+        len.saturating_sub(2)
+    } else {
+        len.saturating_sub(SPARE)
+    };
+    let sides: &[Justify] = if exact {
+        &[Justify::Right]
+    } else {
+        &[Justify::Right, Justify::Left]
+    };
     let side = |profile: Profile| {
         let full = width(&profile) == Some(len);
         sides
@@ -257,9 +277,14 @@ fn tree<I: Iterator<Item = Profile>>(
 /// Turns and angle of a number at the end of the word, of at least `number` bits.
 fn splits(data: u32, number: u32) -> Vec<(u32, u32)> {
     let mut splits = Vec::from([(12, 13), (0, 13), (12, 12), (0, 12), (16, 13)]);
-    splits.extend([(0, data), (data.saturating_sub(13), 13), (data.saturating_sub(12), 12), (0, number)]);
+    splits.extend([
+        (0, data),
+        (data.saturating_sub(13), 13),
+        (data.saturating_sub(12), 12),
+        (0, number),
+    ]);
     distinct(splits, |(turns, angle)| {
-        angle > 0 && (number..=data).contains(&(turns + angle)) && turns <= 16 && angle <= 18
+        angle >= 6 && (number..=data).contains(&(turns + angle)) && turns <= 16 && angle <= 18
     })
 }
 
@@ -275,7 +300,7 @@ fn trees(data: u32, first: u32, last: u32) -> Vec<(u32, u32)> {
     trees.extend([(0, 13), (0, 12), (0, last)]);
     distinct(trees, |(turns, angle)| {
         let columns = if turns > 0 { 12 + angle } else { angle };
-        angle > 0 && angle <= 18 && columns <= data && columns >= last
+        (6..=18).contains(&angle) && columns <= data && columns >= last
     })
 }
 

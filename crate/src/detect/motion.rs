@@ -98,7 +98,9 @@ struct Series {
 impl Series {
     fn follow(&self, places: &[u128], motion: &mut Motion, sizes: &mut Option<(u128, bool)>) {
         let first = places.first().copied().unwrap_or(0);
-        let moved = places.iter().fold(0, |moved, place| moved | (place ^ first));
+        let moved = places
+            .iter()
+            .fold(0, |moved, place| moved | (place ^ first));
         let active = moved.count_ones();
         let mut before: Option<u128> = None;
         for pair in places.windows(2) {

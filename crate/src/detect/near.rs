@@ -5,12 +5,7 @@ use super::{
     sample::{Sample, lines},
 };
 use crate::{dump::Dump, format::Medium, profile::Profile};
-use alloc::{
-    collections::BTreeMap,
-    format,
-    string::String,
-    vec::Vec,
-};
+use alloc::{collections::BTreeMap, format, string::String, vec::Vec};
 
 /// What fits a dump better than the profile that was chosen, or nearly as well.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,11 +50,7 @@ pub fn near(profile: &Profile, dump: &Dump) -> Vec<Near> {
         let sample = sample.changed(change);
         for other in core::iter::once(*profile).chain(beside(&sample)) {
             let candidate = rank::tried(other, &sample).filter(rank::is_strong);
-            found.extend(candidate.map(|candidate| Candidate {
-                change: Some(change),
-                score: candidate.score - super::CHANGED,
-                ..candidate
-            }));
+            found.extend(candidate.map(|candidate| candidate.after(change)));
         }
     }
     found.retain(|candidate| candidate.score >= score + LEAD);
@@ -96,11 +87,16 @@ fn sentence(chosen: &Profile, candidate: &Candidate) -> String {
             differs.push(format!("{name} {}", value.plain()));
         }
     }
-    let why = candidate.evidence.first().map_or("", String::as_str);
+    let skip = usize::from(candidate.change.is_some());
+    let why = candidate.evidence.get(skip).map_or("", String::as_str);
     match (candidate.change, differs.is_empty()) {
         (Some(change), true) => format!("{}; then {why}", change.sentence()),
         (Some(change), false) => {
-            format!("{}; then with {} {why}", change.sentence(), differs.join(", "))
+            format!(
+                "{}; then with {} {why}",
+                change.sentence(),
+                differs.join(", ")
+            )
         }
         (None, _) => format!("with {} {why}", differs.join(", ")),
     }
@@ -112,7 +108,10 @@ pub(super) fn changes(sample: &Sample) -> Vec<Change> {
     let bytes = sample.dump(Medium::Bytes).bytes();
     // The same line again and again is not evidence of any mistake.
     let dump = sample.dump(Medium::Bits);
-    let same = lines(dump).skip(1).zip(lines(dump)).all(|(one, other)| one == other);
+    let same = lines(dump)
+        .skip(1)
+        .zip(lines(dump))
+        .all(|(one, other)| one == other);
     if sample.is_decimal || bytes.is_empty() || same && lines(dump).count() > 1 {
         return all;
     }

@@ -32,6 +32,9 @@ const MORE: &str = "more frames, of a turning shaft, would decide";
 /// Tries one profile on a sample.
 pub(super) fn tried(profile: Profile, sample: &Sample) -> Option<Candidate> {
     let mut candidate = weigh(profile, sample.dump(profile.medium()))?;
+    if sample.counts && !candidate.checked {
+        return None;
+    }
     if profile.format == Format::Asi4 && sample.is_decimal {
         // The line ends of a list of numbers were not on the wire.
         candidate.score -= 4 * candidate.distinct + LINES;
@@ -51,14 +54,17 @@ pub(super) fn is_strong(candidate: &Candidate) -> bool {
 
 /// Whether a candidate leaves no need to look for mistakes of the capture.
 pub(super) fn is_settled(candidate: &Candidate) -> bool {
-    candidate.change.is_none() && candidate.score >= CERTAIN && is_strong(candidate)
+    candidate.change.is_none()
+        && candidate.score >= CERTAIN
+        && is_strong(candidate)
         && candidate.motion.stuck == 0
 }
 
 /// Whether there is evidence for more than the length of the frames.
 const fn proves(candidate: &Candidate) -> bool {
     candidate.checked && candidate.distinct > 1
-        || candidate.distinct >= MOVED_FRAMES / 2 && candidate.motion.smooth > candidate.motion.jumps
+        || candidate.distinct >= MOVED_FRAMES / 2
+            && candidate.motion.smooth > candidate.motion.jumps
 }
 
 /// The candidates in order, with their verdicts.
@@ -72,12 +78,17 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
         let others = found.iter().skip(1);
         others.filter(|other| !reads_alike(&leader, other))
     };
-    let lead = rivals().map(|rival| leader.score - rival.score).max_by_key(|lead| -lead);
+    let lead = rivals()
+        .map(|rival| leader.score - rival.score)
+        .max_by_key(|lead| -lead);
     let lead = lead.unwrap_or(i32::MAX);
-    let close = rivals().filter(|rival| leader.score - rival.score < LEAD).count();
-    let undecided: Vec<String> = decides(&leader, rivals().filter(|rival| {
-        leader.score - rival.score < SAFE_LEAD
-    }));
+    let close = rivals()
+        .filter(|rival| leader.score - rival.score < LEAD)
+        .count();
+    let undecided: Vec<String> = decides(
+        &leader,
+        rivals().filter(|rival| leader.score - rival.score < SAFE_LEAD),
+    );
     let verdict = alone(&leader, lead);
     found.truncate(MOST);
     for candidate in &mut found {
@@ -107,11 +118,18 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
 
 /// The verdict on the best candidate.
 fn alone(leader: &Candidate, lead: i32) -> Verdict {
-    let clean = leader.change.is_none() && !leader.untidy && leader.profile.own.is_none_or(|_| leader.checked);
+    let clean = leader.change.is_none()
+        && !leader.untidy
+        && leader.profile.own.is_none_or(|_| leader.checked);
     let enough = match leader.checked {
         true => leader.score >= CERTAIN && leader.distinct > 1,
         false => leader.score >= MOVED && leader.distinct >= MOVED_FRAMES,
     };
+    // Without a check nearly all steps must go on from those before.
+    let motion = &leader.motion;
+    if !leader.checked && lead >= LEAD && motion.steps > 0 && motion.smooth * 5 < motion.steps * 4 {
+        return Verdict::Unlikely;
+    }
     let probable = match leader.distinct {
         1 => leader.score >= ALONE,
         _ => leader.score >= PROBABLE,
@@ -206,7 +224,10 @@ fn between(leader: &Candidate, rival: &Candidate) -> String {
     let narrow = spread(one).min(spread(other));
     let wide = one.angle_bits.max(other.angle_bits);
     if same && spread(one) != spread(other) && one.format == Format::Ssi && narrow > wide {
-        return format!("frames with turns of at least {} would decide", bits::codes(narrow - wide));
+        return format!(
+            "frames with turns of at least {} would decide",
+            bits::codes(narrow - wide)
+        );
     }
     if same && one.command != other.command {
         return "whether it is a temperature or a speed shows when the shaft stands and turns"
@@ -218,7 +239,10 @@ fn between(leader: &Candidate, rival: &Candidate) -> String {
     }
     if same && one.turns_bits != other.turns_bits && one.angle_bits == other.angle_bits {
         let least = one.turns_bits.min(other.turns_bits);
-        return format!("frames with turns of at least {} would decide", bits::codes(least));
+        return format!(
+            "frames with turns of at least {} would decide",
+            bits::codes(least)
+        );
     }
     if same && one.status_bits != other.status_bits && one.format == Format::BissC {
         return "a capture with a status bit set, or of a turning shaft, would decide".to_string();

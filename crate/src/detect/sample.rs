@@ -2,7 +2,7 @@
 
 use super::Change;
 use crate::{
-    bits::{BitString, Bits},
+    bits::{BitString, Bits, Span},
     dump::{Direction, Dump, Line},
     format::Medium,
 };
@@ -15,6 +15,9 @@ const ENOUGH: usize = 256 * 1024;
 const FRONT: usize = 3_000;
 const FRONT_LINES: usize = 40;
 
+/// So many even steps are those of a counter.
+const COUNTED: usize = 8;
+
 /// The same text, read as bytes, as bits and as lines of text.
 #[derive(Clone, Debug)]
 pub(super) struct Sample {
@@ -23,6 +26,8 @@ pub(super) struct Sample {
     text: Dump,
     /// Whether the text is a list of decimal numbers: their line ends were not on the wire.
     pub(super) is_decimal: bool,
+    /// Whether the lines are numbers that rise evenly: those of a counter, and of no shaft.
+    pub(super) counts: bool,
 }
 
 impl Sample {
@@ -30,6 +35,7 @@ impl Sample {
         let (bytes, bits, text) = (stretches(bytes), stretches(bits), stretches(text));
         Self {
             is_decimal: bytes.bytes() != text.bytes(),
+            counts: counts(&bits, |number| number) || counts(&bits, u64::swap_bytes),
             bytes,
             bits,
             text,
@@ -68,6 +74,7 @@ impl Sample {
             bits: front(&self.bits),
             text: front(&self.text),
             is_decimal: self.is_decimal,
+            counts: self.counts,
         }
     }
 
@@ -78,6 +85,7 @@ impl Sample {
             bits: change.apply(&self.bits),
             text: self.text.clone(),
             is_decimal: self.is_decimal,
+            counts: self.counts,
         }
     }
 
@@ -89,6 +97,26 @@ impl Sample {
         }
         lengths.into_iter().max_by_key(|(_, count)| *count)
     }
+}
+
+/// Whether the lines, as numbers, differ by the same from one to the next.
+fn counts(dump: &Dump, order: fn(u64) -> u64) -> bool {
+    let short = lines(dump).filter(|line| line.len() <= 64);
+    let mut numbers = short.map(|line| order(line.read(Span::new(0, line.len()))));
+    let Some(mut before) = numbers.next() else {
+        return false;
+    };
+    let mut first = None;
+    let mut steps = 0;
+    for number in numbers {
+        let step = number.wrapping_sub(before);
+        if step == 0 || *first.get_or_insert(step) != step {
+            return false;
+        }
+        before = number;
+        steps += 1;
+    }
+    steps >= COUNTED
 }
 
 /// The bits of every line that is not marked as sent by the host.
@@ -122,7 +150,11 @@ fn stretches(dump: &Dump) -> Dump {
     }
     let third = ENOUGH / 3;
     let starts = [0, (total - third) / 2, total - third];
-    let wanted = |at: usize| starts.iter().any(|start| (*start..start + third).contains(&at));
+    let wanted = |at: usize| {
+        starts
+            .iter()
+            .any(|start| (*start..start + third).contains(&at))
+    };
     let mut at = 0;
     mapped(dump, &mut |bits| {
         let start = at;

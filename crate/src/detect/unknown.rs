@@ -36,9 +36,10 @@ const MOVING: usize = 40;
 /// The layouts that the checksums of the lines suggest; none for lines without.
 pub(super) fn layouts(sample: &Sample) -> Vec<Candidate> {
     let dump = sample.dump(Medium::Bits);
-    let Some((len, _)) = sample.line_bits().filter(|(len, count)| {
-        *count >= FEWEST && *len <= LONGEST
-    }) else {
+    let Some((len, _)) = sample
+        .line_bits()
+        .filter(|(len, count)| *count >= FEWEST && *len <= LONGEST)
+    else {
         return Vec::new();
     };
     let medium = match sample.is_bits() {
@@ -61,13 +62,19 @@ pub(super) fn layouts(sample: &Sample) -> Vec<Candidate> {
 }
 
 /// A layout with its evidence, where it reads the frames as the search said.
-fn proposed(profile: Profile, dump: &Dump, found: &Found, angle: Option<Angle>) -> Option<Candidate> {
+fn proposed(
+    profile: Profile,
+    dump: &Dump,
+    found: &Found,
+    angle: Option<Angle>,
+) -> Option<Candidate> {
     let mut candidate = weigh(profile, dump)?;
     let distinct = usize::try_from(candidate.distinct).unwrap_or(0);
     if distinct * 10 < found.frames * 8 {
         return None;
     }
     candidate.verdict = Verdict::Unlikely;
+    candidate.untidy = true;
     let mut evidence = Vec::from([
         "no known format fits; a checksum was found in the frames".to_string(),
         found.to_string(),
@@ -126,15 +133,16 @@ fn angle(frames: &[Bits<'_>], len: usize, medium: Medium, check: Span) -> Option
                 let angle = Angle { at, little_endian };
                 let gain = saved(frames, angle);
                 // Of equals the shortest: what stands above never changes. Ones below do.
-                if best.is_none_or(|(most, known)| {
-                    gain > most || gain == most && width < known.at.len
-                }) {
+                if best
+                    .is_none_or(|(most, known)| gain > most || gain == most && width < known.at.len)
+                {
                     best = Some((gain, angle));
                 }
             }
         }
     }
-    best.filter(|(gain, _)| *gain >= MOVES).map(|(_, angle)| angle)
+    best.filter(|(gain, _)| *gain >= MOVES)
+        .map(|(_, angle)| angle)
 }
 
 fn saved(frames: &[Bits<'_>], angle: Angle) -> i32 {

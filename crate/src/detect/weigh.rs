@@ -120,7 +120,10 @@ impl Counted {
         }
         let rest = rest(frame);
         let before = self.rest.iter().chain(core::iter::repeat(&0));
-        let changes = rest.iter().zip(before).map(|(now, before)| (now ^ before).count_ones());
+        let changes = rest
+            .iter()
+            .zip(before)
+            .map(|(now, before)| (now ^ before).count_ones());
         if self.good > 1 {
             self.changes += changes.sum::<u32>() as i32;
         }
@@ -183,7 +186,10 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     }
     let mut motion = counted.track.motion(&profile);
     let first = counted.wires.first().copied().unwrap_or(0);
-    let moved = counted.wires.iter().fold(0, |moved, wire| moved | (wire ^ first));
+    let moved = counted
+        .wires
+        .iter()
+        .fold(0, |moved, wire| moved | (wire ^ first));
     if moved > 0 {
         motion.stuck = motion.stuck.max(moved.trailing_zeros());
     }
@@ -243,8 +249,8 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     }
     // Without a check, what is not steady beside the position, or jumps, is another layout.
     let often = |count: i64| count * 4 > counted.good as i64;
-    let untidy = counted.check_bits <= 1
-        && (often(counted.changes.into()) || often(motion.jumps.into()));
+    let untidy =
+        counted.check_bits <= 1 && (often(counted.changes.into()) || often(motion.jumps.into()));
     if untidy {
         score /= UNTIDY;
     }
@@ -255,7 +261,7 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         change: None,
         score,
         distinct: count,
-        checked: counted.check_bits > 0,
+        checked: counted.check_bits > 1,
         motion,
         reads: counted.reads,
         covered: counted.covered,
@@ -271,7 +277,7 @@ fn beside(profile: &Profile, dump: &Dump) -> i32 {
     match spare.unwrap_or(0) {
         0 => 0,
         // The same word may come several times.
-        _ if dump.is_bits() && profile.format == Format::SsiTree && len > 24 => FILLED,
+        _ if profile.format == Format::SsiTree && len > 2 * profile.frame_bits => FILLED,
         1 => FILLED,
         _ if dump.is_bits() => CLOCKED,
         _ => FILLED,
@@ -279,12 +285,7 @@ fn beside(profile: &Profile, dump: &Dump) -> i32 {
 }
 
 /// What the positions say.
-fn moves(
-    motion: &Motion,
-    counted: &Counted,
-    profile: &Profile,
-    evidence: &mut Vec<String>,
-) -> i32 {
+fn moves(motion: &Motion, counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32 {
     let mut score = motion.gain;
     if motion.counts && counted.check_bits == 0 {
         evidence.push("every step is the same, as those of a counter are".to_string());
@@ -316,12 +317,10 @@ fn moves(
         let jumps = motion.jumps.min(6) as i32;
         score -= motion.unset as i32 * (UNUSED_BIT + jumps) + 1;
         evidence.push(match motion.unset {
-            1 => {
-                "the top bit of the angle was never seen set: it may be narrower".to_string()
+            1 => "the top bit of the angle was never seen set: it may be narrower".to_string(),
+            many => {
+                format!("the top {many} bits of the angle were never seen set: it may be narrower")
             }
-            many => format!(
-                "the top {many} bits of the angle were never seen set: it may be narrower"
-            ),
         });
     }
     if motion.stuck > 0 && counted.distinct.len() > 3 {
@@ -357,7 +356,9 @@ fn rest(frame: &Frame<'_>) -> Vec<u64> {
         Role::Speed | Role::Temperature | Role::Count => false,
         _ => field.cover.is_none(),
     });
-    fields.map(|field| frame.layout.wire(field, frame.bits)).collect()
+    fields
+        .map(|field| frame.layout.wire(field, frame.bits))
+        .collect()
 }
 
 /// The angle with its bytes in the other order.
@@ -414,7 +415,12 @@ fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32
         score -= BOTH;
         evidence.push("error and warning are set together".to_string());
     }
-    if let Some(more) = counted.addresses.len().checked_sub(1).filter(|more| *more > 0) {
+    if let Some(more) = counted
+        .addresses
+        .len()
+        .checked_sub(1)
+        .filter(|more| *more > 0)
+    {
         score -= more as i32 * ADDRESS;
         evidence.push(format!("{} addresses answer", more + 1));
     }
@@ -432,7 +438,11 @@ fn is_promising(decoder: &Decoder, dump: &Dump) -> bool {
                 return true;
             }
             let stride = count / FIRST;
-            let few = kept(dump, &|index| index.is_multiple_of(stride) && index / stride < FIRST);
+            // Not every so many-eth line, where the same fault may come back.
+            let few = kept(dump, &|index| {
+                let turn = index / stride;
+                turn < FIRST && index % stride == turn % stride
+            });
             let summary = decoder.dump(&few, &mut |_| {});
             (summary.frames - summary.bad) * 3 >= FIRST as u64
         }
@@ -447,9 +457,8 @@ fn is_promising(decoder: &Decoder, dump: &Dump) -> bool {
                 let Some(layout) = layout else { continue };
                 longest = longest.max(layout.len / 8);
                 let frame = rest.get(..layout.len / 8);
-                passes += usize::from(
-                    frame.is_some_and(|frame| layout.holds(Bits::of_bytes(frame))),
-                );
+                passes +=
+                    usize::from(frame.is_some_and(|frame| layout.holds(Bits::of_bytes(frame))));
             }
             passes * longest * 8 >= front.len()
         }

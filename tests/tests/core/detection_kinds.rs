@@ -44,7 +44,11 @@ fn strings(words: &Words) -> String {
 }
 
 fn byte_lines(words: &Words) -> Vec<Vec<u8>> {
-    let byte = |bits: &[bool]| (0..8).fold(0, |byte, at| byte * 2 + u8::from(bits.get(at) == Some(&true)));
+    let byte = |bits: &[bool]| {
+        (0..8).fold(0, |byte, at| {
+            byte * 2 + u8::from(bits.get(at) == Some(&true))
+        })
+    };
     let line = |word: &Vec<bool>| word.chunks(8).map(byte).collect();
     words.iter().map(line).collect()
 }
@@ -55,16 +59,26 @@ fn bytes(words: &Words) -> String {
 }
 
 fn text(lines: &[Vec<u8>]) -> String {
-    lines.iter().map(|line| hex(line)).collect::<Vec<_>>().join("\n")
+    lines
+        .iter()
+        .map(|line| hex(line))
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 fn first(text: &str) -> Candidate {
     let found = detect(text);
-    found.first().cloned().unwrap_or_else(|| panic!("nothing in {text}"))
+    found
+        .first()
+        .cloned()
+        .unwrap_or_else(|| panic!("nothing in {text}"))
 }
 
 fn says(candidate: &Candidate, sentence: &str) -> bool {
-    candidate.evidence.iter().any(|said| said.contains(sentence))
+    candidate
+        .evidence
+        .iter()
+        .any(|said| said.contains(sentence))
 }
 
 fn dump_of(parameters: &str, shaft: Shaft) -> String {
@@ -80,10 +94,16 @@ fn what_can_be_decided_is_certain_and_right() {
     let mut kinds: Vec<String> = Vec::new();
     for angle in [16, 17, 18, 20, 23, 24] {
         for turns in [0, 16] {
-            kinds.push(format!("format=biss-c angle-bits={angle} turns-bits={turns}"));
+            kinds.push(format!(
+                "format=biss-c angle-bits={angle} turns-bits={turns}"
+            ));
             kinds.push(format!("format=bus angle-bits={angle} turns-bits={turns}"));
-            kinds.push(format!("format=rs485 angle-bits={angle} turns-bits={turns}"));
-            kinds.push(format!("format=rs485 angle-bits={angle} turns-bits={turns} command=1"));
+            kinds.push(format!(
+                "format=rs485 angle-bits={angle} turns-bits={turns}"
+            ));
+            kinds.push(format!(
+                "format=rs485 angle-bits={angle} turns-bits={turns} command=1"
+            ));
         }
         kinds.push(format!("format=ssi angle-bits={angle} turns-bits=0"));
     }
@@ -94,6 +114,7 @@ fn what_can_be_decided_is_certain_and_right() {
         "format=ssi angle-bits=23",
         "format=ssi-tree turns-bits=0",
         "format=ssi-tree turns-bits=0 code=binary",
+        "format=ssi-tree turns-bits=12 angle-bits=12 frame-bits=25",
         "format=ssi7",
         "format=ssi7 angle-bits=22",
         "format=t485 angle-bits=17",
@@ -113,7 +134,13 @@ fn what_can_be_decided_is_certain_and_right() {
             wrong.push(format!("{kind}: {found:#?}"));
         }
     }
-    assert!(wrong.is_empty(), "{} of {}: {}", wrong.len(), kinds.len(), wrong.join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "{} of {}: {}",
+        wrong.len(),
+        kinds.len(),
+        wrong.join("\n")
+    );
 }
 
 #[test]
@@ -124,7 +151,6 @@ fn what_reads_alike_in_several_ways_is_named_first_and_not_certain() {
         "format=ssi-tree code=binary",
         "format=ssi-tree parity=even",
         "format=ssi-tree parity=odd code=binary",
-        "format=ssi-tree turns-bits=12 angle-bits=12 frame-bits=25",
         "format=biss-c angle-bits=26 turns-bits=0 status-bits=0",
         "format=biss-c angle-bits=32 turns-bits=0 status-bits=0",
         // Where the turns end shows from 512 on.
@@ -137,7 +163,10 @@ fn what_reads_alike_in_several_ways_is_named_first_and_not_certain() {
             matches!(best.verdict, Verdict::Likely | Verdict::Ambiguous),
             "{kind}: {best:#?}"
         );
-        assert!(says(&best, "data sheet") || says(&best, "would decide"), "{best:#?}");
+        assert!(
+            says(&best, "data sheet") || says(&best, "would decide"),
+            "{best:#?}"
+        );
     }
     let best = first(&dump_of("format=ssi angle-bits=24", TURNING));
     assert!(says(&best, "turns of at least 512"), "{best:#?}");
@@ -145,7 +174,10 @@ fn what_reads_alike_in_several_ways_is_named_first_and_not_certain() {
     let best = first(&dump_of("format=ssi angle-bits=24", far));
     assert_eq!(best.verdict, Verdict::Certain, "{best:#?}");
     // The right-aligned word of 25 bits is the fir-tree of 12 and 13.
-    let best = first(&dump_of("format=ssi-tree code=binary align=right frame-bits=25", TURNING));
+    let best = first(&dump_of(
+        "format=ssi-tree code=binary align=right frame-bits=25",
+        TURNING,
+    ));
     assert_eq!((best.profile.angle_bits, best.profile.turns_bits), (13, 12));
     assert_eq!(best.profile.code.name(), "binary");
     let heat = detect(&dump_of("format=rs485 angle-bits=20 command=t", TURNING));
@@ -162,7 +194,11 @@ fn words_in_bytes_are_found_on_either_side() {
     ] {
         let truth = *decoder(kind).profile();
         let best = first(&bytes(&words(kind, TURNING)));
-        assert_eq!((best.profile, best.verdict), (truth, Verdict::Certain), "{best:#?}");
+        assert_eq!(
+            (best.profile, best.verdict),
+            (truth, Verdict::Certain),
+            "{best:#?}"
+        );
     }
 }
 
@@ -229,10 +265,21 @@ fn damaged_dumps_are_still_what_they_are() {
 #[test]
 fn several_devices_on_a_bus_are_one_bus() {
     let one = byte_lines(&words("format=bus angle-bits=20 address=3", TURNING));
-    let other = byte_lines(&words("format=bus angle-bits=20 address=4", Shaft::turning(7.2, -0.4)));
-    let lines: Vec<_> = one.into_iter().zip(other).flat_map(|(one, other)| [one, other]).collect();
+    let other = byte_lines(&words(
+        "format=bus angle-bits=20 address=4",
+        Shaft::turning(7.2, -0.4),
+    ));
+    let lines: Vec<_> = one
+        .into_iter()
+        .zip(other)
+        .flat_map(|(one, other)| [one, other])
+        .collect();
     let best = first(&text(&lines));
-    assert_eq!((best.profile.format, best.profile.angle_bits), (Format::Bus, 20), "{best:#?}");
+    assert_eq!(
+        (best.profile.format, best.profile.angle_bits),
+        (Format::Bus, 20),
+        "{best:#?}"
+    );
     assert!(says(&best, "2 addresses answer"), "{best:#?}");
 }
 
@@ -257,7 +304,11 @@ fn mistakes_of_a_capture_are_named() {
         .map(|word| word.into_iter().skip(1).chain([false]).collect())
         .collect();
     for (dump, change, format) in [
-        (each(&t485, u8::reverse_bits), Change::Reversed, Format::T485),
+        (
+            each(&t485, u8::reverse_bits),
+            Change::Reversed,
+            Format::T485,
+        ),
         (each(&t485, |byte| !byte), Change::Inverted, Format::T485),
         (text(&headless), Change::MissingByte(0x1a), Format::T485),
         (text(&letters), Change::HexText, Format::T485),
@@ -266,15 +317,25 @@ fn mistakes_of_a_capture_are_named() {
         let found = detect(&dump);
         let best = found.iter().find(|one| one.change.is_some());
         let best = best.unwrap_or_else(|| panic!("{change:?}: {found:#?}"));
-        assert_eq!((best.change, best.profile.format), (Some(change), format), "{found:#?}");
+        assert_eq!(
+            (best.change, best.profile.format),
+            (Some(change), format),
+            "{found:#?}"
+        );
         assert_eq!(best.evidence[0], change.sentence());
-        assert!(found.iter().all(|one| one.verdict != Verdict::Certain), "{found:#?}");
+        assert!(
+            found.iter().all(|one| one.verdict != Verdict::Certain),
+            "{found:#?}"
+        );
         let medium = best.profile.medium();
         let changed = change.apply(&dump::parse(&dump, medium));
         let mut good = 0;
         let decoder = Decoder::new(best.profile).unwrap();
         let summary = decoder.dump(&changed, &mut |_| good += 1);
-        assert!(summary.frames >= 59 && summary.bad <= 1, "{change:?}: {summary:?}");
+        assert!(
+            summary.frames >= 59 && summary.bad <= 1,
+            "{change:?}: {summary:?}"
+        );
     }
 }
 
@@ -286,7 +347,10 @@ fn the_other_order_of_bytes_is_named() {
         .map(|frame| vec![frame[0], frame[1], frame[4], frame[3], frame[2], frame[5]])
         .collect();
     let found = detect(&text(&turned));
-    let bus = found.iter().find(|one| one.profile.format == Format::Bus).unwrap();
+    let bus = found
+        .iter()
+        .find(|one| one.profile.format == Format::Bus)
+        .unwrap();
     assert!(says(bus, "with its bytes in the other order"), "{found:#?}");
 }
 
@@ -295,7 +359,9 @@ fn two_formats_in_one_dump_are_both_named() {
     let mut lines = byte_lines(&words("format=t485", TURNING));
     lines.extend(byte_lines(&words("format=asi1", TURNING)));
     let found = detect(&text(&lines));
-    let mixed = found.iter().filter(|one| says(one, "two formats are mixed"));
+    let mixed = found
+        .iter()
+        .filter(|one| says(one, "two formats are mixed"));
     assert_eq!(mixed.count(), 2, "{found:#?}");
 }
 
@@ -319,11 +385,16 @@ fn an_unknown_checksum_becomes_a_layout() {
     assert!(best.verdict != Verdict::Certain);
     let found = Decoder::new(best.profile).unwrap();
     let frame = |line: &Vec<u8>| {
-        let read = found.line(encoderscope::bits::Bits::of_bytes(line)).unwrap();
+        let read = found
+            .line(encoderscope::bits::Bits::of_bytes(line))
+            .unwrap();
         (read.ok(), read.values().angle)
     };
     let angles: Vec<_> = lines.iter().map(frame).collect();
-    assert!(angles.iter().all(|(ok, angle)| *ok && angle.is_some()), "{best:#?}");
+    assert!(
+        angles.iter().all(|(ok, angle)| *ok && angle.is_some()),
+        "{best:#?}"
+    );
 }
 
 #[test]
@@ -333,9 +404,15 @@ fn what_nearly_fits_a_chosen_profile_is_said() {
         let medium = chosen(kind).medium();
         dump::parse(&dump_of(kind, TURNING), medium)
     };
-    let beside = near(&chosen("format=biss-c angle-bits=24"), &dump("format=biss-c angle-bits=17"));
+    let beside = near(
+        &chosen("format=biss-c angle-bits=24"),
+        &dump("format=biss-c angle-bits=17"),
+    );
     assert_eq!(beside[0].profile.angle_bits, 17, "{beside:#?}");
-    assert!(beside[0].text.starts_with("with angle-bits 17"), "{beside:#?}");
+    assert!(
+        beside[0].text.starts_with("with angle-bits 17"),
+        "{beside:#?}"
+    );
     let right = chosen("format=biss-c angle-bits=17");
     assert_eq!(near(&right, &dump("format=biss-c angle-bits=17")), []);
     let turned = Change::Inverted.apply(&dump("format=t485"));
@@ -361,7 +438,13 @@ fn nothing_is_likely_in_noise() {
         let flat = |byte: u8| text(&vec![vec![byte; len]; 30]);
         dumps.push(("zeros".to_string(), flat(0)));
         dumps.push(("ones".to_string(), flat(0xff)));
-        let lines: Vec<Vec<u8>> = (0u8..40).map(|index| (0..len as u8).map(|at| index.wrapping_mul(len as u8).wrapping_add(at)).collect()).collect();
+        let lines: Vec<Vec<u8>> = (0u8..40)
+            .map(|index| {
+                (0..len as u8)
+                    .map(|at| index.wrapping_mul(len as u8).wrapping_add(at))
+                    .collect()
+            })
+            .collect();
         dumps.push(("rising bytes".to_string(), text(&lines)));
     }
     let prose = "the quick brown fox jumps over the lazy dog, and the dog does not mind at all";
@@ -374,6 +457,33 @@ fn nothing_is_likely_in_noise() {
             .iter()
             .find(|one| matches!(one.verdict, Verdict::Certain | Verdict::Likely));
         assert!(sure.is_none(), "{name}: {sure:#?}\n{dump}");
+    }
+}
+
+/// The frames of one encoder out of the public captures: the format and bits per turn.
+#[test]
+fn captures_of_others_come_out_right() {
+    let vectors: Vec<serde_json::Value> =
+        serde_json::from_str(include_str!("../../vectors.json")).unwrap();
+    let dump = |ids: &str| {
+        let mine = vectors
+            .iter()
+            .filter(|one| one["id"].as_str().unwrap().starts_with(ids));
+        let lines = mine.map(|one| one["hex"].as_str().or(one["bits"].as_str()).unwrap());
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    for (ids, format, angle_bits) in [
+        ("tama-hpm-uart", Format::T485, 23),
+        ("tama-hpm-sei", Format::T485, 23),
+        ("biss-hpm", Format::BissC, 24),
+        ("asi1-s0", Format::Asi1, 22),
+    ] {
+        let best = first(&dump(ids));
+        assert_eq!(
+            (best.profile.format, best.profile.angle_bits),
+            (format, angle_bits),
+            "{best:#?}"
+        );
     }
 }
 
