@@ -208,7 +208,8 @@ impl Detection {
             self.found.extend(found);
             return true;
         }
-        if self.found.iter().any(rank::is_settled) {
+        let best = self.found.iter().max_by_key(|candidate| candidate.score);
+        if best.is_some_and(rank::is_settled) {
             return false;
         }
         if let Some(change) = self.changes.pop_front() {

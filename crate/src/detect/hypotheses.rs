@@ -66,7 +66,7 @@ pub(super) const fn unusual(profile: &Profile) -> i32 {
             };
             let long = match (profile.turns_bits, profile.frame_bits - parity as u32) {
                 (0, 12 | 13) | (1.., 24 | 25) => 0,
-                _ => 4,
+                _ => UNUSUAL,
             };
             1 + parity + right + long + if turns > angle { turns } else { angle }
         }

@@ -58,7 +58,8 @@ impl Track {
         self.angles.push(angle);
     }
 
-    pub(super) fn motion(&self, profile: &Profile) -> Motion {
+    /// What the positions come to, of lines with `active` bits that change.
+    pub(super) fn motion(&self, profile: &Profile, active: u32) -> Motion {
         let mut motion = Motion::default();
         let width = profile.angle_bits;
         let set = self.angles.iter().fold(0, |set, angle| set | angle);
@@ -78,6 +79,7 @@ impl Track {
                 all: bits::codes(turns_bits + width),
                 turn: bits::codes(width),
                 has_turns: *has_turns,
+                active,
             };
             series.follow(places, &mut motion, &mut sizes);
         }
@@ -93,6 +95,8 @@ struct Series {
     /// How many to a turn.
     turn: u128,
     has_turns: bool,
+    /// Bits of the lines that change: a word that is decoded wrongly seems to have more.
+    active: u32,
 }
 
 impl Series {
@@ -101,7 +105,7 @@ impl Series {
         let moved = places
             .iter()
             .fold(0, |moved, place| moved | (place ^ first));
-        let active = moved.count_ones();
+        let active = moved.count_ones().min(self.active);
         let mut before: Option<u128> = None;
         for pair in places.windows(2) {
             let &[from, to] = pair else { continue };

@@ -36,6 +36,9 @@ const MOVING: usize = 40;
 /// The layouts that the checksums of the lines suggest; none for lines without.
 pub(super) fn layouts(sample: &Sample) -> Vec<Candidate> {
     let dump = sample.dump(Medium::Bits);
+    if sample.counts {
+        return Vec::new();
+    }
     let Some((len, _)) = sample
         .line_bits()
         .filter(|(len, count)| *count >= FEWEST && *len <= LONGEST)
@@ -167,7 +170,7 @@ fn saved(frames: &[Bits<'_>], angle: Angle) -> i32 {
             },
         );
     }
-    track.motion(&profile).gain
+    track.motion(&profile, u32::MAX).gain
 }
 
 /// The layout as a user would write it; `None` for checks that cannot be written so.

@@ -58,6 +58,8 @@ const CLOCKED: i32 = 8;
 const FILLED: i32 = 1;
 /// What a word of the right length is worth when nothing else is known.
 const STEADY: i32 = 6;
+/// A bit that changes in fewer than one of so many lines changes by damage.
+const DAMAGE: usize = 25;
 /// Lines that are looked at before all are.
 const FIRST: usize = 6;
 /// Bytes that are looked at before all are.
@@ -110,7 +112,6 @@ impl Counted {
         }
         self.covered += frame.bits.bytes().len() as u64;
         if let Some(heat) = values.temperature {
-            let heat = heat as i32;
             let (least, most) = self.temperatures.unwrap_or((heat, heat));
             self.temperatures = Some((least.min(heat), most.max(heat)));
         }
@@ -159,7 +160,11 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         }
         Decoded::Frame(frame) if frame.ok() => counted.add(&profile, &frame),
         Decoded::Frame(frame) if frame.layout.holds(frame.bits) => unsure.add(&profile, &frame),
-        Decoded::Skip { why, bits, .. } if why == Why::Request => {
+        Decoded::Skip {
+            why: Why::Request,
+            bits,
+            ..
+        } => {
             counted.requests += bits.bytes().len() as u64;
         }
         _ => {}
@@ -184,7 +189,11 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     if let (Some(address), 1) = (counted.addresses.first(), counted.addresses.len()) {
         profile.address = u32::from(*address);
     }
-    let mut motion = counted.track.motion(&profile);
+    let active = match profile.format {
+        Format::SsiTree if profile.code == Code::Gray => active(dump),
+        _ => u32::MAX,
+    };
+    let mut motion = counted.track.motion(&profile, active);
     let first = counted.wires.first().copied().unwrap_or(0);
     let moved = counted
         .wires
@@ -225,7 +234,7 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     }
     let mut turned_round = false;
     if profile.angle_bits > 8 && profile.medium() == Medium::Bytes {
-        let other = counted.swapped.motion(&profile);
+        let other = counted.swapped.motion(&profile, u32::MAX);
         if other.gain > motion.gain / 2 * 3 {
             score -= SWAPPED;
             turned_round = true;
@@ -270,6 +279,23 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     })
 }
 
+/// How many bits of the lines change more often than damage makes them.
+fn active(dump: &Dump) -> u32 {
+    let mut ones: Vec<usize> = Vec::new();
+    let mut total = 0;
+    for line in lines(dump) {
+        total += 1;
+        ones.resize(ones.len().max(line.len()), 0);
+        for (at, count) in ones.iter_mut().enumerate() {
+            *count += usize::from(line.bit(at));
+        }
+    }
+    let active = ones
+        .iter()
+        .filter(|count| (**count).min(total - **count) * DAMAGE > total);
+    active.count() as u32
+}
+
 /// How odd the bits beside the word are.
 fn beside(profile: &Profile, dump: &Dump) -> i32 {
     let len = lines(dump).next().map_or(0, Bits::len) as u32;
@@ -278,7 +304,6 @@ fn beside(profile: &Profile, dump: &Dump) -> i32 {
         0 => 0,
         // The same word may come several times.
         _ if profile.format == Format::SsiTree && len > 2 * profile.frame_bits => FILLED,
-        1 => FILLED,
         _ if dump.is_bits() => CLOCKED,
         _ => FILLED,
     }
@@ -352,8 +377,7 @@ fn wire(frame: &Frame<'_>) -> Option<u64> {
 /// What a frame says beside position and checks, which seldom changes.
 fn rest(frame: &Frame<'_>) -> Vec<u64> {
     let fields = frame.layout.fields().filter(|field| match field.row.role {
-        Role::Turns | Role::Angle | Role::Crc | Role::Parity | Role::Padding => false,
-        Role::Speed | Role::Temperature | Role::Count => false,
+        Role::Turns | Role::Angle | Role::Speed | Role::Temperature | Role::Count => false,
         _ => field.cover.is_none(),
     });
     fields
