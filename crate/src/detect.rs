@@ -12,6 +12,7 @@
 //! an unknown checksum is looked for.
 
 mod change;
+mod counted;
 mod hypotheses;
 mod motion;
 mod near;
@@ -21,8 +22,9 @@ mod unknown;
 mod weigh;
 
 pub use change::Change;
+pub(crate) use counted::check_width;
 pub use near::{Near, near};
-pub(crate) use weigh::{check_width, weigh};
+pub(crate) use weigh::weigh;
 
 use crate::{
     dump::{self, Dump},

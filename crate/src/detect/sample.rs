@@ -34,7 +34,7 @@ impl Sample {
     pub(super) fn new(bytes: &Dump, bits: &Dump, text: &Dump) -> Self {
         let (bytes, bits, text) = (stretches(bytes), stretches(bits), stretches(text));
         Self {
-            is_decimal: bytes.bytes() != text.bytes(),
+            is_decimal: !bits.is_bits() && bytes.bytes() != text.bytes(),
             counts: counts(&bits, |number| number) || counts(&bits, u64::swap_bytes),
             bytes,
             bits,

@@ -2,22 +2,20 @@
 
 use super::{
     Candidate, LIKELY, Verdict,
+    counted::Counted,
     hypotheses::{unusual, width},
-    motion::{Motion, Track},
+    motion::Motion,
     sample::{kept, lines},
 };
 use crate::{
-    bits::{self, Bits},
-    decode::{Decoded, Decoder, Frame},
+    bits::Bits,
+    decode::{Decoded, Decoder},
     dump::Dump,
     format::{Format, Medium},
     framing::Why,
-    layout::{Role, Shape},
     profile::{Code, Profile},
-    reading::Values,
 };
 use alloc::{
-    collections::BTreeSet,
     format,
     string::{String, ToString},
     vec::Vec,
@@ -27,6 +25,7 @@ use alloc::{
 const FAILS: i32 = 6;
 const SKIPPED: i32 = 1;
 const UNUSED_BIT: i32 = 1;
+const UNUSED_STILL: i32 = 2;
 /// For: an identity that names the width, a preamble that is the profile's own.
 const NAMED: i32 = 12;
 const PREAMBLE: i32 = 4;
@@ -64,85 +63,6 @@ const DAMAGE: usize = 25;
 const FIRST: usize = 6;
 /// Bytes that are looked at before all are.
 const FRONT: usize = 4096;
-
-/// Everything that was counted over the good frames of a dump.
-#[derive(Default)]
-struct Counted {
-    distinct: BTreeSet<Vec<u8>>,
-    track: Track,
-    /// The same with the bytes of the angle in the other order.
-    swapped: Track,
-    good: u64,
-    /// Bytes of the good frames.
-    covered: u64,
-    temperatures: Option<(i32, i32)>,
-    check_bits: i32,
-    named: bool,
-    preamble: bool,
-    requests: u64,
-    addresses: BTreeSet<u8>,
-    both: u64,
-    /// Bits beside the position that changed from frame to frame, and what they were last.
-    changes: i32,
-    rest: Vec<u64>,
-    /// The angles as they stand on the wire: a Gray word hides bits that never change.
-    wires: Vec<u64>,
-    /// What all readings are, so that two profiles that read alike are known.
-    reads: u64,
-}
-
-impl Counted {
-    fn add(&mut self, profile: &Profile, frame: &Frame<'_>) {
-        let values = frame.values();
-        self.good += 1;
-        self.named |= matches!(
-            (values.enid, profile.angle_bits),
-            (Some(0x17), 23) | (Some(0x11), 17)
-        );
-        self.preamble |= frame.layout.shape.preamble
-            && frame.layout.shape
-                == Shape {
-                    tail: frame.layout.shape.tail,
-                    ..Shape::of(*profile)
-                };
-        self.addresses.extend(values.address);
-        self.track.add(profile, &values);
-        if profile.medium() == Medium::Bytes {
-            self.swapped.add(profile, &swapped(profile, &values));
-        }
-        self.covered += frame.bits.bytes().len() as u64;
-        if let Some(heat) = values.temperature {
-            let (least, most) = self.temperatures.unwrap_or((heat, heat));
-            self.temperatures = Some((least.min(heat), most.max(heat)));
-        }
-        self.both += u64::from(values.error == Some(true) && values.warning == Some(true));
-        if profile.medium() == Medium::Bits {
-            self.wires.extend(wire(frame));
-        }
-        let rest = rest(frame);
-        let before = self.rest.iter().chain(core::iter::repeat(&0));
-        let changes = rest
-            .iter()
-            .zip(before)
-            .map(|(now, before)| (now ^ before).count_ones());
-        if self.good > 1 {
-            self.changes += changes.sum::<u32>() as i32;
-        }
-        self.rest = rest;
-        let kind = u64::from(values.speed.is_some());
-        let turns = values.turns.unwrap_or(0).unsigned_abs();
-        for part in [values.angle.unwrap_or(0), turns, kind] {
-            // FNV-1a, a word at a time.
-            self.reads = (self.reads ^ part).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-        // A frame of nothing but zeros says nothing: its CRC is 0 too.
-        let bytes = frame.bits.bytes();
-        if bytes.iter().any(|byte| *byte != 0) {
-            self.check_bits = check_width(frame);
-            self.distinct.insert(bytes.to_vec());
-        }
-    }
-}
 
 /// Tries one profile; `None` where no frame passes.
 pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
@@ -340,7 +260,12 @@ fn moves(motion: &Motion, counted: &Counted, profile: &Profile, evidence: &mut V
     }
     if motion.unset > 0 {
         let jumps = motion.jumps.min(6) as i32;
-        score -= motion.unset as i32 * (UNUSED_BIT + jumps) + 1;
+        let against = motion.unset as i32 * (UNUSED_BIT + jumps) + 1;
+        // One position is set in its top bits or not: that says little of the width.
+        score -= match motion.steps {
+            0 => against.min(UNUSED_STILL),
+            _ => against,
+        };
         evidence.push(match motion.unset {
             1 => "the top bit of the angle was never seen set: it may be narrower".to_string(),
             many => {
@@ -366,34 +291,6 @@ fn moves(motion: &Motion, counted: &Counted, profile: &Profile, evidence: &mut V
 /// Whether turns and angle stand side by side, so that where one ends cannot be seen.
 pub(super) fn is_one_number(profile: &Profile) -> bool {
     profile.medium() == Medium::Bits
-}
-
-fn wire(frame: &Frame<'_>) -> Option<u64> {
-    let mut fields = frame.layout.fields();
-    let angle = fields.find(|field| field.row.role == Role::Angle)?;
-    Some(frame.layout.wire(angle, frame.bits))
-}
-
-/// What a frame says beside position and checks, which seldom changes.
-fn rest(frame: &Frame<'_>) -> Vec<u64> {
-    let fields = frame.layout.fields().filter(|field| match field.row.role {
-        Role::Turns | Role::Angle | Role::Speed | Role::Temperature | Role::Count => false,
-        _ => field.cover.is_none(),
-    });
-    fields
-        .map(|field| frame.layout.wire(field, frame.bits))
-        .collect()
-}
-
-/// The angle with its bytes in the other order.
-fn swapped(profile: &Profile, values: &Values) -> Values {
-    let spare = u64::BITS - profile.angle_bits.next_multiple_of(8);
-    let other = |angle: u64| bits::above(angle.swap_bytes(), spare);
-    Values {
-        angle: values.angle.map(other),
-        address: values.address,
-        ..Values::default()
-    }
 }
 
 /// What else speaks for a profile or against it.
@@ -486,25 +383,5 @@ fn is_promising(decoder: &Decoder, dump: &Dump) -> bool {
             }
             passes * longest * 8 >= front.len()
         }
-    }
-}
-
-/// Bits of a frame that are right by chance rarely: its checks, and a control field's pattern.
-pub(crate) fn check_width(frame: &Frame<'_>) -> i32 {
-    let profile = &frame.layout.shape.profile;
-    let fields = frame.layout.fields().filter(|field| match field.row.role {
-        Role::Crc => true,
-        Role::Parity => field.is_binding(),
-        Role::Framing if profile.medium() == Medium::Bits => {
-            !frame.layout.shape.preamble && field.row.constant.is_some_and(|constant| constant > 0)
-        }
-        Role::Framing => field.row.constant.is_some(),
-        _ => false,
-    });
-    let width = fields.map(|field| field.width as i32).sum();
-    match profile.format {
-        // Any list of small numbers looks like it.
-        Format::Asi4 => width / 4,
-        _ => width,
     }
 }
