@@ -112,7 +112,7 @@ pub(super) fn changes(sample: &Sample) -> Vec<Change> {
         .skip(1)
         .zip(lines(dump))
         .all(|(one, other)| one == other);
-    if sample.is_decimal || sample.counts || bytes.is_empty() || same && lines(dump).count() > 1 {
+    if sample.is_decimal || sample.counts || dump.is_empty() || same && lines(dump).count() > 1 {
         return all;
     }
     if !sample.is_bits() {
