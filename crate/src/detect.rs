@@ -1,43 +1,47 @@
 //! What a dump may be: every format at every width, ranked by evidence.
 //!
-//! Evidence is counted in bits: a frame whose check holds is worth its checksum, once for each
-//! distinct frame, since a still shaft repeats itself; what does not fit counts against. One
-//! frame alone is never certain: a CRC-6 holds by chance once in 64 frames, a CRC-8 once in 256.
+//! Evidence is counted in bits. A frame whose check holds is worth its checksum, once for each
+//! distinct frame, since a still shaft repeats itself. A position that goes on from those before
+//! it is worth what its bits would cost without knowing so; that alone finds formats without a
+//! check, and tells turns from angle. What does not fit counts against, and so does an encoder
+//! that no manual describes. One frame alone is never certain: a CRC-6 holds by chance once in
+//! 64 frames, a CRC-8 once in 256. What cannot be decided is said to be ambiguous, with what
+//! would decide it.
+//!
+//! Where nothing fits, the usual mistakes of a capture are undone one by one ([`Change`]), and
+//! an unknown checksum is looked for.
+
+mod change;
+mod counted;
+mod hypotheses;
+mod motion;
+mod near;
+mod rank;
+mod sample;
+mod unknown;
+mod weigh;
+
+pub use change::Change;
+pub(crate) use counted::check_width;
+pub use near::{Near, near};
+pub(crate) use weigh::weigh;
 
 use crate::{
-    bits,
-    decode::{Decoded, Decoder, Frame},
     dump::{self, Dump},
-    format::{Format, Medium, rs485::Command},
-    framing::Why,
-    layout::{Role, Shape},
+    format::Medium,
     profile::Profile,
     record::Record,
 };
-use alloc::{
-    collections::BTreeSet,
-    format,
-    string::{String, ToString},
-    vec::Vec,
-};
+use alloc::{collections::VecDeque, string::String, vec::Vec};
+use motion::Motion;
+use sample::Sample;
 
-/// Text beyond this is not looked at: what has not shown by then will not.
-const ENOUGH_TEXT: usize = 8_000;
 /// Bits of evidence for each verdict, and the lead that sets a candidate apart.
 const CERTAIN: i32 = 40;
 pub(crate) const LIKELY: i32 = 8;
 pub(crate) const LEAD: i32 = 4;
-/// Against: a frame that fails, a byte of no frame, a width whose top bit was never seen set.
-const FAILS: i32 = 6;
-const SKIPPED: i32 = 1;
-const UNUSED_BIT: i32 = 3;
-/// For: an identity that names the width, a preamble that is the profile's own.
-const NAMED: i32 = 6;
-const PREAMBLE: i32 = 4;
-/// For: the only width that an encoder of the manuals has.
-const OWN_WIDTH: i32 = 4;
-/// Less than this is chance.
-const CHANCE: i32 = 3;
+/// What a mistake of the capture must make up for.
+const CHANGED: i32 = 6;
 
 /// How sure a detection is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,25 +79,59 @@ impl Verdict {
 }
 
 /// Something that a dump may be.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Candidate {
     /// How to read it.
     pub profile: Profile,
     /// How sure that is.
     pub verdict: Verdict,
-    /// Why, in sentences.
+    /// Why, in sentences; what would decide between this and others is said last.
     pub evidence: Vec<String>,
+    /// What must be done to the dump first.
+    pub change: Option<Change>,
     pub(crate) score: i32,
+    /// How many distinct frames are good.
+    distinct: i32,
+    /// Whether the frames have a check.
+    checked: bool,
+    motion: Motion,
+    /// Equal where all readings are.
+    reads: u64,
+    /// Bytes of good frames, and of none.
+    covered: u64,
+    strange: u64,
+    /// Whether the frames fit, but what they say is odd.
+    untidy: bool,
+}
+
+impl PartialEq for Candidate {
+    fn eq(&self, other: &Self) -> bool {
+        (self.profile, self.verdict, self.change) == (other.profile, other.verdict, other.change)
+            && self.evidence == other.evidence
+    }
 }
 
 impl Candidate {
-    /// The record of a candidate: its profile, verdict and evidence.
+    /// The candidate on a dump after a change.
+    fn after(mut self, change: Change) -> Self {
+        self.change = Some(change);
+        self.score -= CHANGED;
+        self.evidence.insert(0, change.sentence());
+        self
+    }
+
+    /// The record of a candidate: its profile, verdict, evidence, and what must be changed.
     #[must_use]
     pub fn record(&self) -> Record {
-        self.profile
+        let record = self
+            .profile
             .record()
             .with("verdict", self.verdict.name())
-            .with("evidence", self.evidence.clone())
+            .with("evidence", self.evidence.clone());
+        match self.change {
+            Some(change) => record.with("change", change.name()),
+            None => record,
+        }
     }
 }
 
@@ -106,235 +144,98 @@ impl Candidate {
 /// ```
 #[must_use]
 pub fn detect(text: &str) -> Vec<Candidate> {
-    let end = (0..=ENOUGH_TEXT.min(text.len()))
-        .rev()
-        .find(|at| text.is_char_boundary(*at));
-    let text = &text[..end.unwrap_or(0)];
-    let dumps = [
-        dump::parse(text, Medium::Bytes),
-        dump::parse(text, Medium::Bits),
-        dump::parse(text, Medium::Text),
-    ];
-    // Strings of 0 and 1 are clocked words.
-    let bits_only = dumps[1].is_bits();
-    let mut found: Vec<Candidate> = hypotheses()
-        .filter(|profile| !bits_only || profile.medium() == Medium::Bits)
-        .filter_map(|profile| {
-            let dump = match profile.medium() {
-                Medium::Bytes => &dumps[0],
-                Medium::Bits => &dumps[1],
-                Medium::Text => &dumps[2],
+    let mut detection = Detection::of_text(text);
+    while detection.step() {}
+    detection.candidates()
+}
+
+/// A detection in steps, each short enough for a page or a worker to stay awake.
+///
+/// ```
+/// use encoderscope::detect::Detection;
+/// let mut detection = Detection::of_text("02 20 b4 bd 1c 37\n02 20 50 a9 78 a3");
+/// while detection.step() {}
+/// assert_eq!(detection.candidates()[0].profile.format.name(), "t485");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Detection {
+    sample: Sample,
+    /// What is still to be tried on the dump, as it is or after a change.
+    queue: VecDeque<Profile>,
+    changed: Option<(Change, Sample)>,
+    changes: VecDeque<Change>,
+    /// Whether the checksum is still to be searched.
+    unknown: bool,
+    found: Vec<Candidate>,
+}
+
+impl Detection {
+    /// A detection on the same text parsed as bytes, as bits and as text.
+    ///
+    /// Of more than 256 kB three stretches are looked at: the front, the middle and the end.
+    #[must_use]
+    pub fn new(bytes: &Dump, bits: &Dump, text: &Dump) -> Self {
+        let sample = Sample::new(bytes, bits, text);
+        Self {
+            queue: hypotheses::of(&sample).into(),
+            changes: near::changes(&sample).into(),
+            sample,
+            changed: None,
+            unknown: true,
+            found: Vec::new(),
+        }
+    }
+
+    /// A detection on a pasted text.
+    #[must_use]
+    pub fn of_text(text: &str) -> Self {
+        let parse = |medium| dump::parse(text, medium);
+        Self::new(
+            &parse(Medium::Bytes),
+            &parse(Medium::Bits),
+            &parse(Medium::Text),
+        )
+    }
+
+    /// Tries the next profile; `false` when there is nothing more to try.
+    pub fn step(&mut self) -> bool {
+        if let Some(profile) = self.queue.pop_front() {
+            let found = match &self.changed {
+                None => rank::tried(profile, &self.sample),
+                Some((change, front)) => rank::tried(profile, front)
+                    .filter(rank::is_strong)
+                    .and_then(|_| rank::tried(profile, &self.sample.changed(*change)))
+                    .map(|candidate| candidate.after(*change)),
             };
-            weigh(profile, dump)
-        })
-        .collect();
-    found.retain(|candidate| candidate.score > CHANCE);
-    found.sort_by_key(|candidate| -candidate.score);
-    let best = found.first().map_or(0, |candidate| candidate.score);
-    let leader = found.first().map(|candidate| candidate.profile);
-    let rivals = found
-        .iter()
-        .filter(|candidate| best - candidate.score < LEAD)
-        .filter(|candidate| leader.is_none_or(|leader| !reads_alike(&leader, &candidate.profile)))
-        .count();
-    for candidate in &mut found {
-        if best - candidate.score < LEAD && rivals > 0 {
-            candidate.verdict = Verdict::Ambiguous;
-            candidate.evidence.push(match rivals {
-                1 => "another reading fits as well".to_string(),
-                more => format!("{more} other readings fit as well"),
-            });
-        } else if leader.is_some_and(|leader| !reads_alike(&leader, &candidate.profile)) {
-            candidate.verdict = Verdict::Unlikely;
+            self.found.extend(found);
+            return true;
         }
-    }
-    found
-}
-
-/// Whether two profiles give the same readings: PERIOD sends the replies of RS485 to `d`.
-fn reads_alike(one: &Profile, other: &Profile) -> bool {
-    let neutral = |profile: &Profile| match profile.format {
-        Format::Period => Profile {
-            format: Format::Rs485,
-            command: Command::Status,
-            ..*profile
-        },
-        _ => *profile,
-    };
-    neutral(one) == neutral(other)
-}
-
-/// Every profile that is tried.
-fn hypotheses() -> impl Iterator<Item = Profile> {
-    let t485 = [17, 23].map(|angle_bits| Profile {
-        angle_bits,
-        ..Format::T485.default_profile()
-    });
-    let native = || (16..=24).flat_map(|angle| [0, 16].map(|turns| (angle, turns)));
-    let rs485 = native().flat_map(|(angle_bits, turns_bits)| {
-        Command::ALL
-            .iter()
-            .filter(|command| !command.changes_encoder())
-            .map(move |command| Profile {
-                angle_bits,
-                turns_bits,
-                command: *command,
-                ..Format::Rs485.default_profile()
-            })
-    });
-    let biss = native().flat_map(|(angle_bits, turns_bits)| {
-        [0, 6].map(|status_bits| Profile {
-            angle_bits,
-            turns_bits,
-            status_bits,
-            ..Format::BissC.default_profile()
-        })
-    });
-    let plain = [Format::Bus, Format::Period]
-        .into_iter()
-        .flat_map(move |format| {
-            native().map(move |(angle_bits, turns_bits)| Profile {
-                angle_bits,
-                turns_bits,
-                ..format.default_profile()
-            })
-        });
-    let ip75 = [(Format::Asi1, 14), (Format::Asi1, 22), (Format::Asi4, 14)];
-    let ip75 = ip75
-        .into_iter()
-        .chain([(Format::Ssi7, 14), (Format::Ssi7, 22)]);
-    let ip75 = ip75.map(|(format, angle_bits)| Profile {
-        angle_bits,
-        ..format.default_profile()
-    });
-    t485.into_iter()
-        .chain(rs485)
-        .chain(biss)
-        .chain(plain)
-        .chain(ip75)
-}
-
-/// Tries one profile; `None` where no frame passes.
-pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
-    let decoder = Decoder::new(profile).ok()?;
-    let mut distinct = BTreeSet::new();
-    let mut top_bit = false;
-    let mut named = false;
-    let mut preamble = false;
-    let mut check_bits = 0;
-    let mut requests = 0;
-    let mut addresses = BTreeSet::new();
-    let summary = decoder.dump(dump, &mut |decoded| {
-        let frame = match decoded {
-            Decoded::Frame(frame) => frame,
-            Decoded::Skip { why, bits, .. } => {
-                if why == Why::Request {
-                    requests += bits.bytes().len() as u64;
-                }
-                return;
-            }
-        };
-        if !frame.ok() {
-            return;
+        let best = self.found.iter().max_by_key(|candidate| candidate.score);
+        if best.is_some_and(rank::is_settled) {
+            return false;
         }
-        let values = frame.values();
-        top_bit |= values
-            .angle
-            .is_some_and(|angle| bits::bit(angle, profile.angle_bits - 1));
-        named |= matches!(
-            (values.enid, profile.angle_bits),
-            (Some(0x17), 23) | (Some(0x11), 17)
-        );
-        preamble |= profile.format == Format::BissC
-            && frame.layout.shape
-                == Shape {
-                    tail: frame.layout.shape.tail,
-                    ..Shape::of(profile)
-                };
-        addresses.extend(values.address);
-        check_bits = check_width(&frame);
-        distinct.insert(frame.bits.bytes().to_vec());
-    });
-    let good = summary.frames - summary.bad;
-    let count = i32::try_from(distinct.len()).unwrap_or(i32::MAX / 64);
-    if count == 0 {
-        return None;
-    }
-    // Polled replies are not a free-running stream, but nothing tells those without requests.
-    if profile.format == Format::Period && requests > 0 {
-        return None;
-    }
-    let mut profile = profile;
-    if let (Some(address), 1) = (addresses.first(), addresses.len()) {
-        profile.address = u32::from(*address);
-    }
-    let mut evidence = Vec::new();
-    evidence.push(format!(
-        "the check holds in {good} of {} frames",
-        summary.frames
-    ));
-    if distinct.len() as u64 != good {
-        evidence.push(format!("{count} of them are distinct"));
-    }
-    evidence.push(format!(
-        "by chance 1 in 2^{}",
-        count.saturating_mul(check_bits)
-    ));
-    let proved = count.saturating_mul(check_bits);
-    // A damaged dump is still a dump of its format: what is good in it keeps a quarter.
-    let strange = summary.skipped - requests;
-    let against = summary.bad * FAILS as u64 + strange * SKIPPED as u64;
-    let against = i32::try_from(against).unwrap_or(i32::MAX);
-    let mut score = proved - against.min(proved / 4 * 3);
-    if requests > 0 {
-        evidence.push(format!("{requests} requests stand between them"));
-    }
-    if strange > 0 {
-        evidence.push(format!("{strange} bytes belong to no frame"));
-    }
-    if !top_bit {
-        score -= UNUSED_BIT;
-        evidence
-            .push("the top bit of the angle was never seen set: it may be narrower".to_string());
-    }
-    if preamble {
-        score += PREAMBLE;
-        evidence.push("the lines begin with the preamble of these encoders".to_string());
-    }
-    if named {
-        score += NAMED;
-        evidence.push(format!(
-            "the encoder identity says {} bits",
-            profile.angle_bits
-        ));
-    }
-    let single = matches!(profile.format, Format::Asi1 | Format::Ssi7);
-    if single && profile == profile.format.default_profile() {
-        score += OWN_WIDTH;
-        evidence.push("the width of the IP-75".to_string());
-    }
-    Some(Candidate {
-        profile,
-        verdict: Verdict::of(score, count),
-        evidence,
-        score,
-    })
-}
-
-/// Bits of a frame that are right by chance rarely: its checks, and a control field's pattern.
-pub(crate) fn check_width(frame: &Frame<'_>) -> i32 {
-    let fields = frame.layout.fields().filter(|field| match field.row.role {
-        Role::Crc => true,
-        Role::Parity => field.is_binding(),
-        Role::Framing => {
-            field.row.constant.is_some() && frame.layout.shape.profile.format != Format::BissC
+        if let Some(change) = self.changes.pop_front() {
+            let sample = self.sample.front().changed(change);
+            self.queue = hypotheses::of(&sample).into();
+            self.changed = Some((change, sample));
+            return true;
         }
-        _ => false,
-    });
-    let width = fields.map(|field| field.width as i32).sum();
-    match frame.layout.shape.profile.format {
-        // Any list of small numbers looks like it.
-        Format::Asi4 => width / 4,
-        _ => width,
+        if core::mem::take(&mut self.unknown) && !self.found.iter().any(rank::is_strong) {
+            self.found.extend(unknown::layouts(&self.sample));
+            return true;
+        }
+        false
+    }
+
+    /// How many profiles are still to be tried before the next kind of mistake is looked at.
+    #[must_use]
+    pub fn left(&self) -> usize {
+        self.queue.len()
+    }
+
+    /// What was found so far, best first.
+    #[must_use]
+    pub fn candidates(&self) -> Vec<Candidate> {
+        rank::ranked(self.found.clone())
     }
 }

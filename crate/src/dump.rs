@@ -155,6 +155,23 @@ impl Dump {
         dump
     }
 
+    /// The same dump with other data in its lines; those that come to nothing are left out.
+    pub(crate) fn map_lines(&self, change: &mut dyn FnMut(Line<'_>) -> BitString) -> Self {
+        let mut changed = Self {
+            binary: self.binary,
+            writing: self.writing.clone(),
+            ..Self::default()
+        };
+        for line in self.lines() {
+            let bits = change(line);
+            let len = bits.as_bits().len().min(LONGEST);
+            let data = bits.as_bits().bytes().get(..len.div_ceil(8));
+            changed.data.extend_from_slice(data.unwrap_or_default());
+            changed.close(len, line.time, line.direction);
+        }
+        changed
+    }
+
     /// The lines with something readable in them.
     #[must_use]
     pub fn lines(&self) -> impl ExactSizeIterator<Item = Line<'_>> + '_ {

@@ -213,7 +213,11 @@ impl Desk {
         if self.state.borrow().profile == Some(profile) {
             return;
         }
-        self.state.borrow_mut().profile = Some(profile);
+        let mut state = self.state.borrow_mut();
+        state.profile = Some(profile);
+        // What a candidate has changed was for its own profile.
+        state.judge.change = None;
+        drop(state);
         self.begin();
     }
 

@@ -48,7 +48,8 @@ fn each_format_is_told_from_the_others() {
         if best.verdict == Verdict::Certain {
             assert_eq!(best.profile, truth, "{parameters}: {found:#?}");
         } else {
-            assert_eq!(best.verdict, Verdict::Ambiguous, "{parameters}");
+            let open = matches!(best.verdict, Verdict::Ambiguous | Verdict::Likely);
+            assert!(open, "{parameters}: {best:?}");
         }
     }
 }

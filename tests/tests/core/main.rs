@@ -10,6 +10,7 @@ mod captures_timing;
 mod corpus;
 mod crc_search;
 mod detection;
+mod detection_kinds;
 mod doctor;
 mod dumps;
 mod encoders;

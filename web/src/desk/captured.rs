@@ -83,6 +83,11 @@ impl Captured {
         ))
     }
 
+    /// Whether the input is a recording.
+    pub(super) const fn is_some(&self) -> bool {
+        !self.violations.is_empty()
+    }
+
     /// What is wrong with the timing, by kind.
     pub(super) fn timing(&self) -> Vec<Count> {
         let mut all: Vec<Count> = Vec::new();

@@ -28,16 +28,16 @@ const ROWS: usize = 50_000;
 const SLICE: u64 = 20_000;
 
 /// Gives others their turn when work has taken long enough.
-struct Turn {
+pub(super) struct Turn {
     since: u64,
 }
 
 impl Turn {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { since: now() }
     }
 
-    async fn over(&mut self) {
+    pub(super) async fn over(&mut self) {
         if now().saturating_sub(self.since) > SLICE {
             pause(0.0).await;
             self.since = now();
@@ -94,6 +94,12 @@ impl Desk {
         }
         if !self.wants(job) {
             return Ok(());
+        }
+        if self.state.borrow().judge.change.is_some() {
+            self.undo_mistake();
+            if !self.decode(job, &mut Turn::new()).await {
+                return Ok(());
+            }
         }
         self.state.borrow_mut().finish();
         self.tell(true);

@@ -51,6 +51,8 @@ pub(crate) struct Desk {
     pub(crate) candidates: RwSignal<Vec<CandidateView>>,
     /// Whether it is still being found out what the input may be.
     pub(crate) judging: RwSignal<bool>,
+    /// The candidate whose mistake of the capture is undone.
+    pub(crate) changed: RwSignal<Option<usize>>,
     pub(crate) explained: RwSignal<Option<Explained>>,
     pub(crate) trace: RwSignal<TraceView>,
     pub(crate) marks: RwSignal<Vec<Marked>>,
@@ -86,6 +88,7 @@ impl Desk {
             rows: RwSignal::new((0, Vec::new())),
             candidates: RwSignal::new(Vec::new()),
             judging: RwSignal::new(false),
+            changed: RwSignal::new(None),
             explained: RwSignal::new(None),
             trace: RwSignal::new(TraceView::default()),
             marks: RwSignal::new(Vec::new()),
@@ -271,6 +274,7 @@ impl Desk {
         self.refusal.set(None);
         self.marks.set(Vec::new());
         self.candidates.set(Vec::new());
+        self.changed.set(None);
         self.judging.set(true);
         self.payload.set(None);
         self.selection.set(Selection::default());
@@ -285,10 +289,19 @@ impl Desk {
             return;
         }
         self.profile.set_value(Some(profile));
+        self.changed.set(None);
         self.explained.set(None);
         if self.worker.with_value(Option::is_some) {
             self.send(ToDesk::Profile(query(&profile)));
         }
+    }
+
+    /// Undoes the mistake of the capture that a candidate names, and decodes with its profile.
+    pub(crate) fn change(self, index: usize, profile: Profile) {
+        self.profile.set_value(Some(profile));
+        self.changed.set(Some(index));
+        self.explained.set(None);
+        self.send(ToDesk::Change(index));
     }
 
     /// Puts the input into the link when it has stayed as it is for a while.

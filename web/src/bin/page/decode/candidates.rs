@@ -2,10 +2,7 @@
 
 use crate::{app::App, desk::Choice};
 use encoderscope::{format::Format, profile::Profile};
-use encoderscope_web::{
-    link,
-    message::{CandidateView, ToDesk},
-};
+use encoderscope_web::{link, message::CandidateView};
 use leptos::prelude::*;
 
 /// Candidates that are shown at first.
@@ -42,26 +39,24 @@ pub(super) fn Candidates() -> impl IntoView {
     let row = move |(index, candidate): (usize, CandidateView)| {
         let profile = link::profile(&candidate.profile).ok()?;
         let value = format!("{}&verdict={}", candidate.profile, candidate.verdict);
-        let change = candidate.change.clone();
-        let changes = change.is_some();
+        let changes = candidate.change.is_some();
         let choose = move |_| {
             desk.choice.set(Choice::User);
             if changes {
-                desk.send(ToDesk::Change(index));
+                desk.change(index, profile);
             }
             app.change_profile(profile);
         };
         Some(view! {
             <button
                 class="candidate"
-                class:chosen=move || app.profile.get() == profile && !changes
+                class:chosen=move || app.profile.get() == profile && desk.changed.get() == changes.then_some(index)
                 data-testid="candidate"
                 data-value=value
                 on:click=choose
             >
                 <b>{describe(&profile)}</b>
                 <span class=format!("verdict {}", candidate.verdict)>{candidate.verdict.clone()}</span>
-                {change.map(|change| view! { <small class="fault">{change}</small> })}
                 <small>{candidate.evidence.join("; ")}</small>
             </button>
         })
