@@ -1,13 +1,16 @@
 /** Decodes, explains and encodes frames of absolute rotary encoders. */
 
 export type Format =
-  | 'ssi' | 'biss-c' | 'rs485' | 't485' | 'bus' | 'period' | 'asi1' | 'asi4' | 'ssi7' | 'ssi-tree';
+  | 'ssi' | 'biss-c' | 'rs485' | 't485' | 'bus' | 'period' | 'asi1' | 'asi4' | 'ssi7' | 'ssi-tree'
+  | 'own';
 
 /** Parameters of an encoder; omitted ones take the format's default. */
 export interface Profile {
   format?: Format;
   /** An order code instead of the rest. */
   model?: string;
+  /** Own layouts: the layout as text, or the name of one that comes with the program. */
+  layout?: string;
   angleBits?: number;
   turnsBits?: number;
   /** How the turn counter is read; `unsigned` unless said otherwise. */
@@ -143,6 +146,8 @@ export function decode(profile: Profile, text: string): Decoded;
 export interface Candidate extends Profile {
   verdict: 'certain' | 'likely' | 'ambiguous' | 'unlikely';
   evidence: string[];
+  /** A mistake of the capture that must be undone first. */
+  change?: 'reversed' | 'inverted' | 'clock-early' | 'clock-late' | 'missing-byte' | 'hex-text';
 }
 
 /** Ranks what pasted text may be, best first; empty where more speaks against than for. */
