@@ -6,7 +6,6 @@ const file = (name) => readFileSync(new URL(`../${name}`, import.meta.url));
 const good = '1a 20 29 c0 3b 17 00 00 00 c8 37';
 const other = '1a 20 83 c1 52 17 00 00 00 c8 f5';
 const paste = (page, text) => at(page, 'dump-input').fill(text);
-const value = (page, id) => at(page, id).getAttribute('data-value');
 
 /** Waits until everything has been read and judged. */
 const judged = async (page) => {
@@ -19,31 +18,26 @@ const upload = (page, name, buffer) =>
 
 test('an e-mail with a log is read, paired and judged without a profile', async ({ page }) => {
   await page.goto('/#/decode');
-  await paste(
-    page,
-    [
-      'Hello, it shows nonsense:',
-      '> [12:00:01.234] TX: 64',
-      '> [12:00:01.235] RX: 00 05 12 34 56 00 02',
-      '> [12:00:01.244] TX: 64',
-      '> [12:00:01.245] RX: 00 05 92 a0 01 00 12',
-      '> [12:00:01.254] TX: 64',
-      '> [12:00:01.255] RX: ff fe 13 00 00 60 8d 4z',
-      'Regards',
-    ].join('\n'),
-  );
+  const replies = await page.evaluate(async () => {
+    const { encode } = await import('./encoderscope.js');
+    const angles = [0x923456, 0x9234a0, 0xf23500, 0x123456, 0x523456];
+    return angles.map((angle, index) => encode({ format: 'rs485', command: 'd' }, { turns: 700 + index, angle }));
+  });
+  const lines = replies.flatMap((hex, index) => [
+    `> [12:00:01.2${index}4] TX: 64`,
+    `> [12:00:01.2${index}5] RX: ${hex.replace(/../g, '$& ').toUpperCase()}`,
+  ]);
+  await paste(page, ['Hello, it shows nonsense:', ...lines, '> 4z', 'Regards'].join('\n').replace('\n> 4z', '4z'));
   await judged(page);
   await expect(at(page, 'profile')).toContainText('RS485');
-  await expect(at(page, 'dump-row')).toHaveCount(3);
-  await expect(at(page, 'dump-skip')).toHaveCount(3);
+  await expect(at(page, 'dump-row')).toHaveCount(5);
+  await expect(at(page, 'dump-skip')).toHaveCount(5);
   await expect(at(page, 'dump-skip').first()).toContainText('sent');
-  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-angle', String(0x123456));
+  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-angle', String(0x923456));
   await expect(at(page, 'read-note')).toContainText('quoted in an e-mail');
   await expect(at(page, 'unread')).toHaveText('4z');
   await expect(at(page, 'how-read').locator('s').first()).toBeVisible();
-  const candidate = await value(page.locator('body'), 'candidate').catch(() => null);
-  expect(await at(page, 'candidate').first().getAttribute('data-value')).toContain('format=rs485');
-  expect(candidate === null || candidate.includes('rs485')).toBe(true);
+  await expect(at(page, 'candidate').first()).toHaveAttribute('data-value', /format=rs485/);
 });
 
 test('a profile that was chosen is kept, whatever else would fit', async ({ page }) => {
@@ -120,7 +114,8 @@ const frames = (count) => {
   const out = Buffer.alloc(count * 11);
   for (let index = 0; index < count; index += 1) {
     const frame = out.subarray(index * 11, index * 11 + 11);
-    const angle = (index * 4099) % (1 << 23);
+    // An encoder does not count evenly.
+    const angle = (index * 4099 + ((index * index) % 97) * 53) % (1 << 23);
     frame.set([0x1a, 0, angle & 255, (angle >> 8) & 255, angle >> 16, 0x17, index & 255, (index >> 8) & 255, 0, 0]);
     frame[10] = frame.subarray(0, 10).reduce((sum, byte) => sum ^ byte);
     if (index % 10 === 9) frame[10] ^= 1;
@@ -138,7 +133,7 @@ test('rows are filtered, sorted, found and kept in the link', async ({ page, con
   await page.locator('[data-testid=show][data-value=all]').click();
   await page.locator('[data-testid=sort][data-value=angle]').click();
   await page.locator('[data-testid=sort][data-value=angle]').click();
-  await expect(at(page, 'rows')).toHaveAttribute('data-value', '1000');
+  await expect(at(page, 'dump-row').first()).not.toHaveAttribute('data-row', '0');
   const angles = await at(page, 'dump-row').evaluateAll((rows) => rows.slice(0, 8).map((row) => Number(row.dataset.angle)));
   expect(angles).toEqual([...angles].sort((one, two) => two - one));
   await page.getByText('Filter by value or status').click();
@@ -319,6 +314,9 @@ test('100 MB open with progress, the page stays awake, and reading can be stoppe
       const file = new File(parts, 'long.txt', { type: 'text/plain' });
       const data = new DataTransfer();
       data.items.add(file);
+      // Making the file was work of the test, not of the page.
+      await new Promise((resolve) => setTimeout(resolve, 500));
+      window.tasks.length = 0;
       const start = performance.now();
       const drop = new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true });
       document.querySelector('.drop').dispatchEvent(drop);

@@ -11,6 +11,9 @@ use crate::{
 };
 use alloc::{collections::BTreeSet, vec::Vec};
 
+/// Zeros in front of a one that are hardly data.
+const LONG_ACK: u32 = 3;
+
 /// Everything that was counted over the good frames of a dump.
 #[derive(Default)]
 pub(super) struct Counted {
@@ -25,6 +28,8 @@ pub(super) struct Counted {
     pub(super) check_bits: i32,
     pub(super) named: bool,
     pub(super) preamble: bool,
+    /// Lines with an acknowledge of another length and a start bit.
+    pub(super) started: bool,
     pub(super) requests: u64,
     pub(super) addresses: BTreeSet<u8>,
     pub(super) both: u64,
@@ -51,6 +56,13 @@ impl Counted {
                     tail: frame.layout.shape.tail,
                     ..Shape::of(*profile)
                 };
+        let Shape {
+            preamble,
+            idle,
+            ack,
+            ..
+        } = frame.layout.shape;
+        self.started |= preamble && idle > 0 && ack >= LONG_ACK;
         self.addresses.extend(values.address);
         self.track.add(profile, &values);
         if profile.medium() == Medium::Bytes {

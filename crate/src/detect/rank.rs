@@ -29,6 +29,10 @@ const MOST: usize = 24;
 /// What one frame, or a shaft that stands still, calls for.
 const MORE: &str = "more frames, of a turning shaft, would decide";
 
+/// What no frame tells of a number without anything between turns and angle.
+const SIDE_BY_SIDE: &str =
+    "turns and angle stand side by side: how many bits are turns only the data sheet says";
+
 /// Tries one profile on a sample.
 pub(super) fn tried(profile: Profile, sample: &Sample) -> Option<Candidate> {
     let mut candidate = weigh(profile, sample.dump(profile.medium()))?;
@@ -89,7 +93,10 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
         &leader,
         rivals().filter(|rival| leader.score - rival.score < SAFE_LEAD),
     );
-    let verdict = alone(&leader, lead);
+    let verdict = match alone(&leader, lead) {
+        Verdict::Likely if undecided.iter().any(|said| said == SIDE_BY_SIDE) => Verdict::Ambiguous,
+        verdict => verdict,
+    };
     found.truncate(MOST);
     for candidate in &mut found {
         // So little evidence tells nothing from anything.
@@ -234,8 +241,7 @@ fn between(leader: &Candidate, rival: &Candidate) -> String {
             .to_string();
     }
     if same && one.angle_bits != other.angle_bits && one.code == other.code && is_one_number(one) {
-        return "turns and angle stand side by side: how many bits are turns only the data sheet says"
-            .to_string();
+        return SIDE_BY_SIDE.to_string();
     }
     if same && one.turns_bits != other.turns_bits && one.angle_bits == other.angle_bits {
         let least = one.turns_bits.min(other.turns_bits);

@@ -29,6 +29,7 @@ const UNUSED_STILL: i32 = 2;
 /// For: an identity that names the width, a preamble that is the profile's own.
 const NAMED: i32 = 12;
 const PREAMBLE: i32 = 4;
+const STARTED: i32 = 3;
 /// For: the only width that an encoder of the manuals has.
 const OWN_WIDTH: i32 = 4;
 /// For: the requests that such replies follow, and the pace that the manual gives.
@@ -225,7 +226,8 @@ fn beside(profile: &Profile, dump: &Dump) -> i32 {
         // The same word may come several times.
         _ if profile.format == Format::SsiTree && len > 2 * profile.frame_bits => FILLED,
         _ if dump.is_bits() => CLOCKED,
-        _ => FILLED,
+        // What fills the last byte is usual, whole bytes behind the word are less so.
+        spare => FILLED + (spare / 8) as i32,
     }
 }
 
@@ -299,6 +301,9 @@ fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32
     if counted.preamble {
         score += PREAMBLE;
         evidence.push("the lines begin with the preamble of these encoders".to_string());
+    } else if counted.started {
+        score += STARTED;
+        evidence.push("the lines begin with an acknowledge and a start bit".to_string());
     }
     if counted.named {
         score += NAMED;

@@ -11,6 +11,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use encoderscope::{
     decode::{Decoded, Decoder},
+    detect::{Candidate, Verdict, detect},
     dump::{Dropped, Dump},
 };
 use encoderscope_tests::{decoder, paste};
@@ -127,6 +128,71 @@ fn every_dump_is_read_as_expected() {
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// Turns and angle of good frames as one number.
+fn numbers(decoder: &Decoder, dump: &Dump) -> Vec<u64> {
+    let mut all = Vec::new();
+    let one = decoder.profile().angle_bits;
+    decoder.dump(dump, &mut |decoded| {
+        if let Decoded::Frame(frame) = decoded
+            && let Some(reading) = frame.reading()
+        {
+            let turns = reading.turns.unwrap_or(0) as u64;
+            all.push(turns * (1 << one) + reading.angle);
+        }
+    });
+    all
+}
+
+/// Dumps that say too little to tell what they are: frames of a shaft that hardly moves.
+const OPEN: &[&str] = &[];
+
+#[test]
+fn detection_names_what_a_dump_is_or_says_that_it_is_open() {
+    let mut wrong = String::new();
+    let (mut named, mut open) = (0, Vec::new());
+    for case in CASES {
+        let truth = decoder(case.expect.lines().next().unwrap_or_default());
+        let found = detect(case.text);
+        // Two profiles are one where they read the same.
+        let is_right = |candidate: &Candidate| {
+            let known = Decoder::new(candidate.profile).unwrap();
+            let same = candidate.profile.medium() == truth.profile().medium();
+            same && encoded(&known, &paste(&known, case.text)) == case.encoded
+        };
+        let verdict = found.first().map(|best| best.verdict);
+        let is_named = match verdict {
+            Some(Verdict::Certain | Verdict::Likely) => is_right(&found[0]),
+            Some(Verdict::Ambiguous) => {
+                // Where turns end and the angle begins may be what is open.
+                let side_by_side = |other: &Candidate| {
+                    let known = Decoder::new(other.profile).unwrap();
+                    let dump = paste(&truth, case.text);
+                    numbers(&known, &dump) == numbers(&truth, &dump)
+                };
+                let open = |other: &&Candidate| other.verdict == Verdict::Ambiguous;
+                let mut all = found.iter().filter(open);
+                all.any(|other| is_right(other) || side_by_side(other))
+            }
+            Some(Verdict::Unlikely) | None => {
+                open.push(case.name);
+                continue;
+            }
+        };
+        named += usize::from(verdict != Some(Verdict::Ambiguous));
+        if !is_named {
+            let list = found
+                .iter()
+                .take(3)
+                .map(|candidate| candidate.record().to_string());
+            let list = list.collect::<Vec<_>>().join("\n  ");
+            let _ = writeln!(wrong, "{}:\n  {list}", case.name);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+    assert_eq!(open, OPEN);
+    assert!(named >= 30, "{named}");
 }
 
 #[test]

@@ -18,8 +18,8 @@ pub(super) struct Captured {
     violations: Vec<Vec<Violation>>,
 }
 
-/// Reads the recording with the profile, or where no master clocks that, with the one of SSI and
-/// BiSS-C whose frames hold their checks.
+/// Reads the recording with the profile, or where no master clocks that, as BiSS-C where there are
+/// acknowledges, else as the SSI whose words have so many bits.
 fn recording(text: &[u8], kind: Kind, profile: Option<Profile>) -> Result<Recording, Unreadable> {
     let clocked = profile.filter(|profile| profile.link() == Link::Clocked);
     let profiles = match clocked {
@@ -43,10 +43,46 @@ fn recording(text: &[u8], kind: Kind, profile: Option<Profile>) -> Result<Record
             (0..2.min(bits.len())).all(|at| bits.bit(at)) && bits.len() > 8 && !bits.bit(2)
         });
         if starts.count() * 2 > read.frames.len() {
-            break;
+            return best;
         }
     }
-    best
+    match (clocked, best.as_ref().ok().and_then(word)) {
+        (None, Some(profile)) => match Decoder::new(profile) {
+            Ok(decoder) => Recording::read(text, kind, &decoder, Options::default()),
+            Err(_) => best,
+        },
+        _ => best,
+    }
+}
+
+/// The SSI profile whose words have as many bits as most words of a recording.
+fn word(read: &Recording) -> Option<Profile> {
+    let bits = read.frames.iter().map(|frame| frame.bits.as_bits().len());
+    let mut bits: Vec<usize> = bits.collect();
+    bits.sort_unstable();
+    let bits = *bits.get(bits.len() / 2)?;
+    let text = |bits: usize| bits.to_string();
+    let pairs = match bits {
+        13 => vec![("format", "ssi-tree".to_owned()), ("turns-bits", text(0))],
+        25 => vec![("format", "ssi-tree".to_owned())],
+        30 => vec![("format", "ssi7".to_owned())],
+        // Error, warning and six status bits, and turns in front of long words.
+        24..=32 => vec![
+            ("format", "ssi".to_owned()),
+            ("turns-bits", text(0)),
+            ("angle-bits", text(bits - 8)),
+        ],
+        40..=48 => vec![
+            ("format", "ssi".to_owned()),
+            ("angle-bits", text(bits - 24)),
+        ],
+        _ => vec![
+            ("format", "ssi-tree".to_owned()),
+            ("align", "right".to_owned()),
+            ("frame-bits", text(bits)),
+        ],
+    };
+    Profile::parse(pairs.iter().map(|(name, value)| (*name, value.as_str()))).ok()
 }
 
 impl Captured {
@@ -63,6 +99,9 @@ impl Captured {
         let read = recording(text, kind, profile)
             .map_err(|why| format!("The recording cannot be read: {why}."))?;
         let mut notes: Vec<String> = read.wires.reasons.iter().map(ToString::to_string).collect();
+        if profile.is_none_or(|profile| profile.link() != Link::Clocked) {
+            notes.push("The word length is taken from the recording: choose the format to have the number of clocks judged.".into());
+        }
         if read.clocking == Clocking::Counted {
             notes.push("There are no times in it, so that timing is not judged.".into());
         }

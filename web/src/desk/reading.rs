@@ -232,13 +232,7 @@ impl Desk {
                 state.profile = Some(profile);
                 let post = state.post.clone();
                 drop(state);
-                post(
-                    FromDesk::Opened {
-                        text: None,
-                        profile: Some(link::query(&profile)),
-                    },
-                    None,
-                );
+                post(FromDesk::Taken(link::query(&profile)), None);
             }
         }
         self.decode(job, &mut turn).await;

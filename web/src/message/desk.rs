@@ -120,6 +120,8 @@ pub enum FromDesk {
         /// The profile, where the file says which.
         profile: Option<String>,
     },
+    /// The profile that a recording of clock and data is read with, where the page's has no clock.
+    Taken(String),
     /// How text was read, for the page to show in place.
     Marks(Vec<Marked>),
     /// Rows that were looked at.

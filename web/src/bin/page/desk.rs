@@ -65,6 +65,8 @@ pub(crate) struct Desk {
     pub(crate) selection: RwSignal<Selection>,
     /// The row that is explained.
     pub(crate) chosen: RwSignal<Option<usize>>,
+    /// The place of the row that is explained among those that are shown, where it is known.
+    pub(crate) place: StoredValue<Option<usize>>,
     /// Where the table is to go: a place among the rows that are shown.
     pub(crate) goal: RwSignal<Option<usize>>,
     /// The profile that the candidates lead to, where nobody has chosen one.
@@ -98,6 +100,7 @@ impl Desk {
             payload: RwSignal::new(None),
             selection: RwSignal::new(Selection::default()),
             chosen: RwSignal::new(None),
+            place: StoredValue::new(None),
             goal: RwSignal::new(None),
             found: RwSignal::new(None),
             choice: RwSignal::new(Choice::Nobody),
@@ -205,12 +208,25 @@ impl Desk {
                     self.found.set(Some(profile));
                 }
             }
+            FromDesk::Taken(profile) => {
+                let profile = link::profile(&profile).ok();
+                self.profile.set_value(profile);
+                self.found.set(profile);
+            }
             FromDesk::Marks(marks) => self.marks.set(marks),
             FromDesk::Rows { first, rows } => self.rows.set((first, rows)),
             FromDesk::Candidates { found, done } => {
                 let best = found.first().filter(|best| best.change.is_none());
-                let sure = best.filter(|best| ["certain", "likely"].contains(&&*best.verdict));
-                let profile = sure.and_then(|best| link::profile(&best.profile).ok());
+                let reads = self
+                    .overview
+                    .with_untracked(|overview| overview.frames > overview.bad);
+                let better = best.filter(|best| match best.verdict.as_str() {
+                    "certain" | "likely" => true,
+                    // It reads something where the present profile reads nothing.
+                    "ambiguous" => !reads,
+                    _ => false,
+                });
+                let profile = better.and_then(|best| link::profile(&best.profile).ok());
                 if self.choice.get_untracked() == Choice::Nobody && profile.is_some() {
                     self.found.set(profile);
                 }
@@ -220,6 +236,7 @@ impl Desk {
             FromDesk::Explained(explained) => self.explained.set(Some(*explained)),
             FromDesk::Found(found) => {
                 if let Some((place, index)) = found {
+                    self.place.set_value(Some(place));
                     self.goal.set(Some(place));
                     self.chosen.set(Some(index));
                 }
@@ -279,6 +296,7 @@ impl Desk {
         self.payload.set(None);
         self.selection.set(Selection::default());
         self.chosen.set(None);
+        self.place.set_value(None);
         self.goal.set(Some(0));
         self.explained.set(None);
     }

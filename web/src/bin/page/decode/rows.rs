@@ -148,7 +148,8 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
             .get_untracked()
             .and_then(|index| rows.1.iter().position(|row| row.index == index))
             .map(|at| rows.0 + at);
-        let here = place.unwrap_or(top.get_untracked()) as f64;
+        let known = desk.place.get_value().or(place);
+        let here = known.unwrap_or(top.get_untracked()) as f64;
         let to = match event.key().as_str() {
             "ArrowDown" => here + 1.0,
             "ArrowUp" => here - 1.0,
@@ -161,6 +162,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
         event.prevent_default();
         let last = scroll.total.get_untracked().saturating_sub(1) as f64;
         let to = to.clamp(0.0, last) as usize;
+        desk.place.set_value(Some(to));
         scroll.show(to);
         let at = to.checked_sub(rows.0).and_then(|at| rows.1.get(at));
         match at {
@@ -236,6 +238,7 @@ fn Heading(by: Quantity, title: &'static str) -> impl IntoView {
             Some(false) => Some((by.name().to_owned(), true)),
             Some(true) => None,
         };
+        desk.place.set_value(None);
         desk.selection.update(|selection| selection.order = next);
         desk.goal.set(Some(0));
     };
@@ -262,7 +265,10 @@ fn Line(row: RowView, place: usize, shown: Memo<Option<usize>>) -> impl IntoView
     let timed = desk.overview.with_untracked(|overview| overview.timed);
     let index = row.index;
     let chosen = move || shown.get() == Some(index);
-    let choose = move |_| desk.chosen.set(Some(index));
+    let choose = move |_| {
+        desk.place.set_value(Some(place));
+        desk.chosen.set(Some(index));
+    };
     let time = timed.then(|| {
         let text = row.time.map(|time| format!("{time:.6}"));
         view! { <td class="time">{text}</td> }
@@ -332,6 +338,7 @@ const fn title(show: Show) -> &'static str {
 fn FilterBar() -> impl IntoView {
     let desk = expect_context::<App>().desk;
     let update = move |change: &dyn Fn(&mut Selection)| {
+        desk.place.set_value(None);
         desk.selection.update(|selection| change(selection));
         desk.goal.set(Some(0));
     };
