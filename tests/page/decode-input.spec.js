@@ -61,7 +61,7 @@ test('a capture of clock and data is read, and its timing judged', async ({ page
   await expect(page.getByText('is the clock').or(page.getByText('by its name')).first()).toBeVisible();
   await expect(page.getByText('Timing')).toHaveCount(0);
 
-  await page.goto('/#/decode?format=ssi&angle-bits=17');
+  await page.goto('/#/decode?format=ssi&angle-bits=16&turns-bits=0');
   await upload(page, 'pause.vcd', file('captures/pause-13us.vcd'));
   await expect(page.locator('.counts').filter({ hasText: 'Timing' })).toContainText('pause too short');
   await page.locator('.counts').filter({ hasText: 'Timing' }).getByTestId('count').first().click();
@@ -116,7 +116,7 @@ const frames = (count) => {
     const frame = out.subarray(index * 11, index * 11 + 11);
     // An encoder does not count evenly.
     const angle = (index * 4099 + ((index * index) % 97) * 53) % (1 << 23);
-    frame.set([0x1a, 0, angle & 255, (angle >> 8) & 255, angle >> 16, 0x17, index & 255, (index >> 8) & 255, 0, 0]);
+    frame.set([0x1a, 0, angle & 255, (angle >> 8) & 255, angle >> 16, 0x17, 5, 0, 0, 0]);
     frame[10] = frame.subarray(0, 10).reduce((sum, byte) => sum ^ byte);
     if (index % 10 === 9) frame[10] ^= 1;
   }

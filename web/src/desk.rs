@@ -83,6 +83,8 @@ struct State {
     captured: Captured,
     judge: Judge,
     shown: (Filter, Option<Order>),
+    /// How often rows have been chosen and sorted.
+    arranged: u32,
     /// When the page was last told how far it is, in milliseconds.
     told: f64,
 }
@@ -120,6 +122,7 @@ impl Desk {
                 captured: Captured::default(),
                 judge: Judge::default(),
                 shown: (Filter::default(), None),
+                arranged: 0,
                 told: 0.0,
             })),
         }
@@ -466,6 +469,7 @@ impl State {
             profile: self.profile.as_ref().map(link::query).unwrap_or_default(),
             read: (self.read, self.source.as_ref().map_or(0.0, Source::len)),
             done: self.done,
+            arranged: self.arranged,
             timing: self.captured.timing(),
             notes: self.captured.notes.clone(),
             ..Overview::default()

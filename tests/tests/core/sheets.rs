@@ -23,7 +23,7 @@ fn damaged(parameters: &str, count: u64) -> (Decoder, Dump) {
     let decoder = decoder(parameters);
     let encoder = Emulator::new(*decoder.profile(), Shaft::turning(5.0, 2.0)).unwrap();
     // The status field of T485 has other bits.
-    let weak = |index: u64| index % 7 == 0 && parameters != "format=t485";
+    let weak = |index: u64| index.is_multiple_of(7) && parameters != "format=t485";
     let lines = (0..count).map(|index| {
         let values = Values {
             status: Some(if weak(index) { 0b100 } else { 0 }),

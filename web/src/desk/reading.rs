@@ -277,10 +277,11 @@ impl Desk {
                     _ => false,
                 }
             };
-            self.tell(!more);
             if !more {
-                return;
+                self.state.borrow_mut().arranged += 1;
+                return self.tell(true);
             }
+            self.tell(false);
             turn.over().await;
             if !self.wants(job) {
                 return;

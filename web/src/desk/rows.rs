@@ -166,6 +166,7 @@ impl Explained {
             bytes,
             notes: notes.iter().map(FieldView::from).collect(),
             says: Vec::new(),
+            answers: None,
         }
     }
 
@@ -185,6 +186,7 @@ pub(super) fn explained(row: &Row<'_>, medium: Medium) -> Explained {
     match &row.decoded {
         Decoded::Frame(frame) => {
             let mut view = Explained::new(row.index, frame.bits, bytes, &frame.explain());
+            view.answers = frame.request.map(|start| start as f64);
             // What a field is wrong about stands beside it.
             let of_all = frame.faults().into_iter();
             view.says = of_all

@@ -194,6 +194,8 @@ pub struct Overview {
     pub rows: usize,
     /// Rows that the filter lets through.
     pub shown: usize,
+    /// How often rows have been chosen and sorted anew: those on the page are old then.
+    pub arranged: u32,
     /// Rows that found no place.
     pub lost: f64,
     /// Whether rows have times.
@@ -302,6 +304,8 @@ pub struct Explained {
     pub notes: Vec<FieldView>,
     /// What is to be said of it as a whole.
     pub says: Vec<String>,
+    /// Offset of the request that it answers, where the input has marked one.
+    pub answers: Option<f64>,
 }
 
 /// What a field says.

@@ -94,7 +94,10 @@ pub(crate) fn Decode() -> impl IntoView {
                 }}
                 {move || desk.explained.get().filter(|_| !empty()).map(|explained| view! {
                     <section class="panel detail">
-                        <h2>{format!("Row {}", grouped(explained.index as u64 + 1))}</h2>
+                        <h2>
+                            {format!("Row {}", grouped(explained.index as u64 + 1))}
+                            {explained.answers.map(|start| view! { <span>{format!("answers the request at {start}")}</span> })}
+                        </h2>
                         {explained.says.iter().map(|text| view! { <p class="fault">{text.clone()}</p> }).collect_view()}
                         <FrameView frame=explained />
                     </section>

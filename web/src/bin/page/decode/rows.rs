@@ -42,8 +42,9 @@ impl Scroll {
 
     /// Pixels that the bar can move.
     fn way(self) -> f64 {
-        let height = (self.total.get_untracked() as f64 * ROW).min(TALLEST);
-        (height - SIGHT as f64 * ROW).max(1.0)
+        let frame = self.frame.get_untracked();
+        let way = frame.map_or(0, |frame| frame.scroll_height() - frame.client_height());
+        f64::from(way).max(1.0)
     }
 
     fn is_scaled(self) -> bool {
@@ -121,7 +122,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
             overview.profile,
             overview.shown,
             overview.rows,
-            overview.done,
+            overview.arranged,
         )
     });
     Effect::new(move || {
