@@ -8,7 +8,6 @@ use crate::{
 use encoderscope::{
     decode::Decoder,
     detect::{Candidate, Change, Detection},
-    dump::Dump,
     sheet::Sheet,
 };
 
@@ -59,7 +58,7 @@ impl Desk {
             if let (Paper::Whole(dump), true) =
                 (&state.paper, state.binary || state.captured.is_some())
             {
-                return Some(Detection::new(dump, dump, &Dump::default()));
+                return Some(Detection::new(dump, dump, dump));
             }
             (state.source.clone()?, state.origin)
         };

@@ -189,7 +189,10 @@ impl App {
         let area = Area::ALL
             .into_iter()
             .find(|area| area.name() == fragment.area);
-        self.area.set(area.unwrap_or(Area::Console));
+        let area = area.unwrap_or(Area::Console);
+        if self.area.get_untracked() != area {
+            self.area.set(area);
+        }
         match fragment.profile() {
             Some(Ok(profile)) => self.change_profile(profile),
             Some(Err(error)) => self

@@ -40,6 +40,8 @@ pub(crate) fn Decode() -> impl IntoView {
     Effect::new(move || desk.decode_as(app.profile.get()));
     Effect::new(move || {
         if let Some(profile) = desk.found.get() {
+            // Once: what the user chooses later stands.
+            desk.found.set(None);
             app.change_profile(profile);
         }
     });
