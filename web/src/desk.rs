@@ -181,7 +181,6 @@ impl Desk {
             state.name = name;
             state.origin = 0;
             state.judge = Judge::default();
-            state.shown = (Filter::default(), None);
             state.profile = link::profile(profile).ok();
         }
         self.begin();
