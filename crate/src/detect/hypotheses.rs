@@ -77,7 +77,7 @@ pub(super) const fn unusual(profile: &Profile) -> i32 {
 /// All that a dump may be, those of the manuals first.
 pub(super) fn of(sample: &Sample) -> Vec<Profile> {
     let mut all = Vec::new();
-    if !sample.is_bits() {
+    if !sample.is_bits() || sample.is_octets() {
         bytes(sample, &mut all);
     }
     if let Some((len, _)) = sample.line_bits() {

@@ -3,7 +3,7 @@
 use super::{
     CERTAIN, Candidate, LEAD, Verdict,
     sample::Sample,
-    weigh::{LINES, is_one_number, weigh},
+    weigh::{CHANCE, FEW, LINES, is_one_number, weigh},
 };
 use crate::{bits, format::Format, profile::Profile};
 use alloc::{
@@ -12,8 +12,6 @@ use alloc::{
     vec::Vec,
 };
 
-/// Less than this is chance.
-const CHANCE: i32 = 3;
 /// Bits of evidence of several frames, and of one alone, that are not to be had by chance from
 /// one of some hundred profiles.
 const PROBABLE: i32 = 14;
@@ -134,7 +132,9 @@ fn alone(leader: &Candidate, lead: i32) -> Verdict {
     };
     // Without a check nearly all steps must go on from those before.
     let motion = &leader.motion;
-    if !leader.checked && lead >= LEAD && motion.steps > 0 && motion.smooth * 5 < motion.steps * 4 {
+    let few = leader.distinct < FEW;
+    let moves = motion.steps > 0 && motion.smooth * 5 < motion.steps * 4;
+    if !leader.checked && !few && lead >= LEAD && moves {
         return Verdict::Unlikely;
     }
     let probable = match leader.distinct {
@@ -144,10 +144,10 @@ fn alone(leader: &Candidate, lead: i32) -> Verdict {
     match lead {
         ..LEAD => Verdict::Ambiguous,
         SAFE_LEAD.. if clean && enough && leader.motion.stuck == 0 => Verdict::Certain,
-        _ if leader.untidy && !leader.checked => Verdict::Unlikely,
+        _ if leader.untidy && !leader.checked && !few => Verdict::Unlikely,
         _ if probable && clean | (leader.score >= ALONE) => Verdict::Likely,
         // So little can be many things.
-        _ if leader.distinct < 3 || leader.motion.steps == 0 => Verdict::Ambiguous,
+        _ if few || leader.motion.steps == 0 => Verdict::Ambiguous,
         _ => Verdict::Unlikely,
     }
 }
@@ -209,7 +209,7 @@ fn name_mixed(found: &mut [Candidate]) {
 /// What sample would decide between the best candidate and its rivals.
 fn decides<'a>(leader: &Candidate, rivals: impl Iterator<Item = &'a Candidate>) -> Vec<String> {
     let mut said: Vec<String> = Vec::new();
-    if leader.distinct < 3 {
+    if leader.distinct < 3 || !leader.checked && leader.distinct < FEW {
         said.push(MORE.to_string());
     }
     for rival in rivals {

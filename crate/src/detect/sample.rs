@@ -55,6 +55,12 @@ impl Sample {
         self.bits.is_bits()
     }
 
+    /// Whether its strings of 0 and 1 are bytes as well.
+    pub(super) fn is_octets(&self) -> bool {
+        let whole = lines(&self.bits).all(|bits| bits.len().is_multiple_of(8));
+        self.is_bits() && whole && self.bits.bytes() == self.bytes.bytes()
+    }
+
     /// Its front, which is enough to see whether a change of the dump makes it readable.
     pub(super) fn front(&self) -> Self {
         let front = |dump: &Dump| {

@@ -21,6 +21,8 @@ use alloc::{
     vec::Vec,
 };
 
+/// Less than this is chance.
+pub(super) const CHANCE: i32 = 3;
 /// Against: a frame that fails, a byte of no frame, a width whose top bit was never seen set.
 const FAILS: i32 = 6;
 const SKIPPED: i32 = 1;
@@ -58,6 +60,9 @@ const CLOCKED: i32 = 8;
 const FILLED: i32 = 1;
 /// What a word of the right length is worth when nothing else is known.
 const STEADY: i32 = 6;
+/// Words that are hardly ever anything else, and how few of them tell nothing.
+const USUAL: i32 = 1;
+pub(super) const FEW: i32 = 6;
 /// A bit that changes in fewer than one of so many lines changes by damage.
 const DAMAGE: usize = 25;
 /// Lines that are looked at before all are.
@@ -177,12 +182,17 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     if counted.check_bits <= 1 && steady && !odd {
         score = score.max(STEADY + counted.check_bits - unusual - motion.unset.min(4) as i32);
     }
+    // Few words of a usual length are worth naming, though little speaks for them.
+    let usual = unusual <= USUAL && counted.check_bits <= 1 && count < FEW && bad + strange == 0;
     // Without a check, what is not steady beside the position, or jumps, is another layout.
     let often = |count: i64| count * 4 > counted.good as i64;
     let untidy =
         counted.check_bits <= 1 && (often(counted.changes.into()) || often(motion.jumps.into()));
     if untidy {
         score /= UNTIDY;
+    }
+    if usual && !motion.counts {
+        score = score.max(CHANCE + 1);
     }
     Some(Candidate {
         profile,
