@@ -50,10 +50,11 @@ pub(super) fn OwnEditor() -> impl IntoView {
                 }
             });
         };
-        // What is written behind kind, width and name, for whoever knows the words.
+        // What is written beside kind, width, name and level, for whoever knows the words.
         let rest = {
             let plain = Draft {
                 name: None,
+                active: Active::High,
                 ..draft.clone()
             };
             let text = plain.to_string();
@@ -88,6 +89,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
                 Ok(new) => set(&|field| {
                     *field = Draft {
                         name: name.clone(),
+                        active,
                         ..new.clone()
                     };
                 }),
