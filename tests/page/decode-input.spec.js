@@ -63,8 +63,8 @@ test('a capture of clock and data is read, and its timing judged', async ({ page
 
   await page.goto('/#/decode?format=ssi&angle-bits=16&turns-bits=0');
   await upload(page, 'pause.vcd', file('captures/pause-13us.vcd'));
-  await expect(page.locator('.counts').filter({ hasText: 'Timing' })).toContainText('pause too short');
-  await page.locator('.counts').filter({ hasText: 'Timing' }).getByTestId('count').first().click();
+  await expect(page.locator('.tally').filter({ hasText: 'Timing' })).toContainText('pause too short');
+  await page.locator('.tally').filter({ hasText: 'Timing' }).getByTestId('count').first().click();
   await expect(page.locator('.detail .fault').first()).toContainText('20 µs');
 
   await page.goto('/#/decode?format=biss-c&angle-bits=19&turns-bits=0&status-bits=0');

@@ -80,7 +80,7 @@ pub(super) fn Figures() -> impl IntoView {
                 }
             });
             view! {
-                <div class=format!("counts {class}")>
+                <div class=format!("tally {class}")>
                     <h3>{title}</h3>
                     <ul>{items.collect_view()}</ul>
                 </div>
