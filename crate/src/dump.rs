@@ -121,6 +121,7 @@ impl Dump {
     pub fn of_bytes(bytes: impl Into<Vec<u8>>) -> Self {
         let mut dump = Self {
             data: bytes.into(),
+            writing: Writing::binary(),
             ..Self::default()
         };
         while dump.end.byte < dump.data.len() as u64 {

@@ -37,6 +37,8 @@ const paths = (u, index) => {
       const [x, y] = [u.valToPos(times[at], 'x', true), u.valToPos(value, 'y', true)];
       if (!drawing) stroke.moveTo(x, y);
       stroke.lineTo(x, y);
+      const alone = !drawing && (values[at + 1] ?? null) === null;
+      if (alone) stroke.arc(x, y, 1.5 * uPlot.pxRatio, 0, 2 * Math.PI);
     }
     drawing = value !== null;
   }

@@ -7,6 +7,7 @@
 mod captured;
 mod export;
 mod judge;
+mod overview;
 mod reading;
 mod rows;
 mod share;
@@ -14,19 +15,19 @@ mod source;
 
 use crate::{
     link,
-    message::{
-        Count, Explained, FromDesk, Marked, Overview, RowView, Selection, ToDesk, TraceView,
-    },
+    message::{Explained, FromDesk, Marked, RowView, Selection, ToDesk, TraceView},
 };
 use captured::Captured;
 use encoderscope::{
     decode::Decoder,
-    dump::{Dump, Marks, Reader},
+    detect::Change,
+    dump::{Dump, Reader},
     export::{Language, source},
     profile::Profile,
-    sheet::{Filter, Order, Quantity, Sheet, Show, Tally},
+    sheet::{Filter, Order, Quantity, Sheet, Show},
 };
 use judge::Judge;
+use overview::marked;
 
 use share::Load;
 use source::Source;
@@ -37,7 +38,7 @@ use web_sys::Blob;
 /// Text that the page shows in a box to type in, in bytes.
 const TYPED: usize = 400_000;
 /// Marks that the page gets.
-const MOST_MARKS: usize = 4_000;
+const MOST_MARKS: usize = 400;
 /// Rows at the front of a report, and faulty ones behind them.
 const REPORTED: usize = 4;
 
@@ -142,9 +143,13 @@ impl Desk {
                     None => self.post(FromDesk::Refused("There is no file to read.".into())),
                 }
             }
-            ToDesk::Link { payload, profile } => self.open_link(payload, profile),
+            ToDesk::Link {
+                payload,
+                change,
+                profile,
+            } => self.open_link(payload, change, profile),
             ToDesk::Profile(profile) => self.change_profile(&profile),
-            ToDesk::Change(index) => self.change_input(index),
+            ToDesk::Change { change, profile } => self.change_input(&change, &profile),
             ToDesk::Cancel => self.cancel(),
             ToDesk::Show(shown) => self.show(&shown),
             ToDesk::Rows { first, count } => self.send_rows(first, count),
@@ -155,7 +160,7 @@ impl Desk {
             ToDesk::NextFault(from) => self.find(|sheet, _| sheet.next_fault(from)),
             ToDesk::Trace { from, to, columns } => self.trace(from, to, columns),
             ToDesk::Export(kind) => self.export(kind),
-            ToDesk::Share => self.share(),
+            ToDesk::Share(number) => self.share(number),
             ToDesk::Report => self.report(),
             ToDesk::Source(language) => self.source(&language),
         }
@@ -186,7 +191,7 @@ impl Desk {
         self.begin();
     }
 
-    fn open_link(&self, payload: String, profile: String) {
+    fn open_link(&self, payload: String, change: String, profile: String) {
         let desk = self.clone();
         wasm_bindgen_futures::spawn_local(async move {
             match share::unpack(&payload).await {
@@ -194,13 +199,16 @@ impl Desk {
                     desk.post(FromDesk::Opened {
                         text: (text.len() <= TYPED).then(|| text.clone()),
                         profile: None,
+                        change: None,
                     });
                     let bytes: Rc<[u8]> = text.into_bytes().into();
                     desk.open(Source::Memory(bytes), String::new(), &profile);
+                    desk.state.borrow_mut().judge.change = Change::parse(&change);
                 }
                 Ok(Load::Bytes(bytes)) => {
                     let bytes: Rc<[u8]> = bytes.into();
                     desk.open(Source::Memory(bytes), "bytes from a link".into(), &profile);
+                    desk.state.borrow_mut().judge.change = Change::parse(&change);
                 }
                 Err(why) => desk.post(FromDesk::Refused(why)),
             }
@@ -215,11 +223,7 @@ impl Desk {
         if self.state.borrow().profile == Some(profile) {
             return;
         }
-        let mut state = self.state.borrow_mut();
-        state.profile = Some(profile);
-        // What a candidate has changed was for its own profile.
-        state.judge.change = None;
-        drop(state);
+        self.state.borrow_mut().profile = Some(profile);
         self.begin();
     }
 
@@ -313,6 +317,7 @@ impl Desk {
     fn find(&self, wanted: impl FnOnce(&Sheet, &Dump) -> Option<usize>) {
         let found = self.look(|sheet, dump| {
             let index = wanted(sheet, dump)?;
+            (index < sheet.len()).then_some(())?;
             Some((sheet.place_of(index)?, index))
         });
         self.post(FromDesk::Found(found.flatten()));
@@ -365,14 +370,14 @@ impl Desk {
         }
     }
 
-    fn share(&self) {
+    fn share(&self, number: u32) {
         let desk = self.clone();
         wasm_bindgen_futures::spawn_local(async move {
             let packed = match desk.load().await {
                 Ok(load) => share::pack(&load).await,
                 Err(why) => Err(why),
             };
-            desk.post(FromDesk::Shared(packed));
+            desk.post(FromDesk::Shared(number, packed));
         });
     }
 
@@ -427,26 +432,6 @@ impl Desk {
     }
 }
 
-fn marked(marks: &Marks) -> Vec<Marked> {
-    let places = marks.places.iter().map(|mark| Marked {
-        start: mark.at.start as usize,
-        end: mark.at.end as usize,
-        kind: mark.kind.to_string(),
-    });
-    places.collect()
-}
-
-fn counts(tallies: &[Tally]) -> Vec<Count> {
-    let count = |tally: &Tally| Count {
-        name: tally.name.clone(),
-        count: tally.count as f64,
-        first: tally.first,
-    };
-    let mut all: Vec<Count> = tallies.iter().map(count).collect();
-    all.sort_by(|one, other| other.count.total_cmp(&one.count));
-    all
-}
-
 impl State {
     /// All of the input has been read.
     fn finish(&mut self) {
@@ -460,61 +445,5 @@ impl State {
 
     fn decoder(&self) -> Option<Decoder> {
         Decoder::new(self.profile?).ok()
-    }
-
-    fn overview(&self) -> Overview {
-        let mut view = Overview {
-            source: self.name.clone(),
-            profile: self.profile.as_ref().map(link::query).unwrap_or_default(),
-            read: (self.read, self.source.as_ref().map_or(0.0, Source::len)),
-            done: self.done,
-            arranged: self.arranged,
-            timing: self.captured.timing(),
-            notes: self.captured.notes.clone(),
-            ..Overview::default()
-        };
-        if let Some(dump) = self.paper.dump() {
-            view.writing = dump.writing().to_string();
-            view.lines = dump.len() as f64;
-            view.bytes = dump.bytes().len() as f64;
-            view.unread = dump.unread().total as f64;
-            view.timed = dump.has_times();
-            for mark in &dump.dropped().places {
-                let kind = mark.kind.to_string();
-                match view.dropped.iter_mut().find(|known| known.name == kind) {
-                    Some(known) => known.count += 1.0,
-                    None => view.dropped.push(Count {
-                        name: kind,
-                        count: 1.0,
-                        first: 0,
-                    }),
-                }
-            }
-        }
-        if let Some(sheet) = &self.sheet {
-            let figures = sheet.figures();
-            let full = |bits: u32, angle| encoderscope::reading::degrees(angle, bits);
-            let bits = sheet.decoder().profile().angle_bits;
-            let tenths = |value: i32| f64::from(value) / 10.0;
-            view.frames = figures.summary.frames as f64;
-            view.bad = figures.summary.bad as f64;
-            view.skipped = figures.summary.skipped as f64;
-            view.rows = sheet.len();
-            view.shown = sheet.shown();
-            view.lost = sheet.lost() as f64;
-            view.faults = counts(&figures.faults);
-            view.skips = counts(&figures.skips);
-            view.conditions = counts(&figures.conditions);
-            view.angle = figures
-                .angle
-                .map(|(low, high)| (full(bits, low), full(bits, high)));
-            view.turns = figures.turns.map(|(low, high)| (low as f64, high as f64));
-            view.temperature = figures
-                .temperature
-                .map(|(low, high)| (tenths(low), tenths(high)));
-            view.speed = figures.speed;
-            view.duration = figures.times.map(|(first, last)| last - first);
-        }
-        view
     }
 }

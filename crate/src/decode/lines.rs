@@ -70,7 +70,10 @@ impl Decoder {
         let rivals = others
             .map(|other| self.shaped(*other))
             .filter(|other| other.holds(bits) && other.reading(bits) != layout.reading(bits));
-        let sure = self.layouts[0].shape.preamble || rivals.count() == 0;
+        let sure = match self.layouts[0].shape.preamble {
+            true => is_quiet(bits, layout.shape.tail),
+            false => rivals.count() == 0,
+        };
         Ok(Frame {
             start: 0,
             layout,
@@ -91,4 +94,12 @@ impl Decoder {
             _ => Cow::Owned(Resolved::new(self.table(), shape)),
         }
     }
+}
+
+/// Whether a line is idle behind a BiSS-C frame: low for the time-out, then high. A few bits that
+/// fill a byte say nothing; more that come and go are another frame, or this is none.
+fn is_quiet(bits: Bits<'_>, tail: u32) -> bool {
+    let rest = bits.len().saturating_sub(tail as usize)..bits.len();
+    let falls = |at: usize| bits.bit(at - 1) && !bits.bit(at);
+    tail < 8 || !rest.skip(1).any(falls)
 }

@@ -72,6 +72,40 @@ impl Change {
         }
     }
 
+    /// The change as a link has it: its name, and the byte where one is missing.
+    ///
+    /// ```
+    /// use encoderscope::detect::Change;
+    /// for change in [Change::Inverted, Change::MissingByte(0x1a)] {
+    ///     assert_eq!(Change::parse(&change.code()), Some(change));
+    /// }
+    /// assert_eq!(Change::parse("upside-down"), None);
+    /// ```
+    #[must_use]
+    pub fn code(self) -> String {
+        match self {
+            Self::MissingByte(byte) => format!("{}:{byte:02x}", self.name()),
+            other => other.name().to_string(),
+        }
+    }
+
+    /// The change of a link.
+    #[must_use]
+    pub fn parse(code: &str) -> Option<Self> {
+        let (name, byte) = code.split_once(':').unwrap_or((code, "0"));
+        let byte = u8::from_str_radix(byte, 16).ok()?;
+        let mut all = [
+            Self::Reversed,
+            Self::Inverted,
+            Self::ClockEarly,
+            Self::ClockLate,
+            Self::MissingByte(byte),
+            Self::HexText,
+        ]
+        .into_iter();
+        all.find(|change| change.name() == name)
+    }
+
     /// The dump as it should have been captured.
     ///
     /// ```

@@ -251,7 +251,7 @@ impl Reader {
             return;
         }
         match &self.dump.writing.form {
-            Form::Free | Form::Captured => self.free(text),
+            Form::Free | Form::Captured | Form::Binary => self.free(text),
             Form::Table(_) => self.row_of_table(text),
             Form::Annotations => self.annotation(text),
             Form::Offsets(_) => self.row_of_hexdump(text),

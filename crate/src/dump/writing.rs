@@ -39,6 +39,8 @@ pub(super) enum Form {
     Annotations,
     /// Nobody has written it.
     Captured,
+    /// The bytes themselves.
+    Binary,
 }
 
 /// What the digits are.
@@ -74,6 +76,13 @@ pub(super) enum Quotes {
 }
 
 impl Writing {
+    pub(super) fn binary() -> Self {
+        Self {
+            form: Form::Binary,
+            ..Self::default()
+        }
+    }
+
     pub(super) fn captured() -> Self {
         Self {
             form: Form::Captured,
@@ -90,6 +99,7 @@ impl Writing {
             Form::Table(table) => table.name(),
             Form::Annotations => "sigrok annotations",
             Form::Captured => "captured bits",
+            Form::Binary => "plain bytes",
             Form::Free if self.times != Times::None => "terminal log with times",
             Form::Free if self.source => "source code",
             Form::Free if self.directed => "terminal log",

@@ -203,7 +203,7 @@ fn the_dumps_are_of_all_formats() {
         };
         assert!(CASES.iter().any(|case| of(&case)), "{}", format.name());
     }
-    assert!(CASES.len() >= 45);
+    assert!(CASES.len() >= 60);
 }
 
 /// Turns and angle of every good frame.

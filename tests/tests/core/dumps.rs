@@ -101,6 +101,24 @@ fn a_biss_capture_that_ends_early_is_short_and_never_good() {
 }
 
 #[test]
+fn what_follows_a_biss_frame_is_idle_or_the_frame_is_not_sure() {
+    let decoder = decoder("format=biss-c angle-bits=17");
+    let frame = "82 00 05 80 00 60 68";
+    for (behind, good) in [
+        ("", true),
+        ("00 00", true),
+        ("00 ff ff", true),
+        ("ff ff", true),
+        ("82 00 05 80 00 60 68", false),
+        ("0f 00", false),
+    ] {
+        let found = stretches(&decoder, &paste(&decoder, &format!("{frame} {behind}")));
+        assert_eq!(found.len(), 1, "{behind}");
+        assert_eq!(found[0].is_good(), good, "{behind}: {found:?}");
+    }
+}
+
+#[test]
 fn bad_parameters_are_named_with_what_would_fit() {
     assert_eq!(
         profile_error(&[("format", "t48")]),

@@ -2,7 +2,7 @@
 
 use crate::message::Count;
 use encoderscope::{
-    capture::{Clocking, Kind, Options, Recording, Unreadable, Violation},
+    capture::{Clocked, Clocking, Kind, Options, Recording, Unreadable, Violation},
     decode::Decoder,
     dump::Dump,
     format::{Format, Link},
@@ -37,12 +37,7 @@ fn recording(text: &[u8], kind: Kind, profile: Option<Profile>) -> Result<Record
         let Ok(read) = &best else {
             break;
         };
-        // An acknowledge and a start bit are no SSI.
-        let starts = read.frames.iter().filter(|frame| {
-            let bits = frame.bits.as_bits();
-            (0..2.min(bits.len())).all(|at| bits.bit(at)) && bits.len() > 8 && !bits.bit(2)
-        });
-        if starts.count() * 2 > read.frames.len() {
+        if clocked.is_none() && is_biss(read) {
             return best;
         }
     }
@@ -53,6 +48,26 @@ fn recording(text: &[u8], kind: Kind, profile: Option<Profile>) -> Result<Record
         },
         _ => best,
     }
+}
+
+/// Whether every frame begins with the idle line, an acknowledge of one length, start and cds.
+fn is_biss(read: &Recording) -> bool {
+    const LONG_ACK: usize = 3;
+    let acknowledge = |frame: &Clocked| {
+        let bits = frame.bits.as_bits();
+        let run = |from: usize, level: bool| {
+            let rest = from..bits.len();
+            rest.take_while(|at| bits.bit(*at) == level).count()
+        };
+        let idle = run(0, true);
+        let ack = run(idle, false);
+        let start = idle + ack;
+        let is_start = bits.bit(start) && start + 1 < bits.len() && !bits.bit(start + 1);
+        (idle > 0 && ack >= LONG_ACK && is_start).then_some(ack)
+    };
+    let first = read.frames.first().and_then(acknowledge);
+    let mut frames = read.frames.iter();
+    first.is_some() && frames.all(|frame| acknowledge(frame) == first)
 }
 
 /// The SSI profile whose words have as many bits as most words of a recording.

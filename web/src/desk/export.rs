@@ -71,13 +71,22 @@ impl Desk {
 
     /// The input with its profile in front; bytes that are no text in hexadecimal.
     async fn recording(&self) -> Result<Array, String> {
-        let (source, origin, profile, text) = {
+        let (source, origin, profile, text, change) = {
             let state = self.state.borrow();
             let profile = state.profile.as_ref().map(link::query);
-            (state.source.clone(), state.origin, profile, !state.binary)
+            (
+                state.source.clone(),
+                state.origin,
+                profile,
+                !state.binary,
+                state.judge.change,
+            )
         };
         let source = source.ok_or("there is nothing to write")?;
-        let parts = Array::of1(&JsValue::from_str(&title(&profile.unwrap_or_default())));
+        let parts = Array::of1(&JsValue::from_str(&title(
+            &profile.unwrap_or_default(),
+            change,
+        )));
         let mut at = origin as f64;
         // A letter may be cut by the end of a piece.
         let mut rest: Vec<u8> = Vec::new();

@@ -25,6 +25,13 @@ pub(super) struct Judge {
     pub(super) change: Option<Change>,
 }
 
+impl Judge {
+    /// What was found is not true of what is read now.
+    pub(super) fn forget(&mut self) {
+        self.found = None;
+    }
+}
+
 impl Desk {
     /// Ranks what the input may be; once, since that does not depend on the profile.
     pub(super) async fn judge(&self, job: u32) {
@@ -67,17 +74,12 @@ impl Desk {
         Some(Detection::of_text(&String::from_utf8_lossy(&bytes)))
     }
 
-    /// Changes the input as a candidate says, and decodes it with its profile.
-    pub(super) fn change_input(&self, index: usize) {
+    /// Undoes a mistake of the capture, or none, and decodes with a profile.
+    pub(super) fn change_input(&self, change: &str, profile: &str) {
         {
             let mut state = self.state.borrow_mut();
-            let found = state.judge.found.as_ref();
-            let Some(candidate) = found.and_then(|found| found.get(index)) else {
-                return;
-            };
-            let (profile, change) = (candidate.profile, candidate.change);
-            state.profile = Some(profile);
-            state.judge.change = change;
+            state.profile = link::profile(profile).ok();
+            state.judge.change = Change::parse(change);
         }
         self.begin();
     }
@@ -108,6 +110,6 @@ fn view(candidate: &Candidate) -> CandidateView {
         profile: link::query(&candidate.profile),
         verdict: candidate.verdict.name().into(),
         evidence: candidate.evidence.clone(),
-        change: candidate.change.map(Change::sentence),
+        change: candidate.change.map(Change::code),
     }
 }

@@ -13,6 +13,7 @@ use crate::{
 use encoderscope::{
     capture::{Kind, sniff},
     decode::Decoder,
+    detect::Change,
     dump::{Dump, Reader},
     format::Medium,
     sheet::Sheet,
@@ -118,9 +119,14 @@ impl Desk {
             return head;
         };
         let first = state.origin == 0;
+        let (profile, change) = match profile.split_once("&change=") {
+            Some((profile, change)) => (profile.to_owned(), Some(change.to_owned())),
+            None => (profile, None),
+        };
         state.origin = origin;
         if first && let Ok(known) = link::profile(&profile) {
             state.profile = Some(known);
+            state.judge.change = change.as_deref().and_then(Change::parse);
             state.sheet = state.decoder().map(Sheet::new);
             let post = state.post.clone();
             drop(state);
@@ -128,6 +134,7 @@ impl Desk {
                 FromDesk::Opened {
                     text: None,
                     profile: Some(profile),
+                    change,
                 },
                 None,
             );
@@ -221,6 +228,12 @@ impl Desk {
         let (captured, dump, profile) = Captured::read(&text, kind, profile)?;
         {
             let mut state = self.state.borrow_mut();
+            // Lines of another length are something else.
+            let same =
+                |old: &Dump| old.len() == dump.len() && old.bytes().len() == dump.bytes().len();
+            if !state.paper.dump().is_some_and(same) {
+                state.judge.forget();
+            }
             state.captured = captured;
             state.paper = Paper::Whole(dump);
             state.sheet = Decoder::new(profile).ok().map(Sheet::new);

@@ -15,6 +15,8 @@ use encoderscope::{
 
 /// Bytes that a row shows.
 const SHOWN: usize = 16;
+/// Bits of a row that are explained; no frame is longer, whatever follows it on its line.
+const EXPLAINED: usize = 512;
 
 fn bytes_text(bits: Bits<'_>) -> String {
     let bytes = bits.bytes();
@@ -162,7 +164,9 @@ impl Explained {
     pub fn new(index: usize, bits: Bits<'_>, bytes: bool, notes: &[Note]) -> Self {
         Self {
             index,
-            bits: (0..bits.len()).map(|index| bits.bit(index)).collect(),
+            bits: (0..bits.len().min(EXPLAINED))
+                .map(|index| bits.bit(index))
+                .collect(),
             bytes,
             notes: notes.iter().map(FieldView::from).collect(),
             says: Vec::new(),
@@ -187,12 +191,15 @@ pub(super) fn explained(row: &Row<'_>, medium: Medium) -> Explained {
         Decoded::Frame(frame) => {
             let mut view = Explained::new(row.index, frame.bits, bytes, &frame.explain());
             view.answers = frame.request.map(|start| start as f64);
+            if frame.bits.len() > EXPLAINED {
+                let more = grouped((frame.bits.len() - EXPLAINED) as u64);
+                view.says
+                    .push(format!("{more} bits more follow on this line"));
+            }
             // What a field is wrong about stands beside it.
             let of_all = frame.faults().into_iter();
-            view.says = of_all
-                .filter(|fault| fault.at.len == frame.bits.len())
-                .map(|fault| fault.kind.to_string())
-                .collect();
+            let all = of_all.filter(|fault| fault.at.len == frame.bits.len());
+            view.says.extend(all.map(|fault| fault.kind.to_string()));
             view
         }
         Decoded::Skip { bits, why, .. } => {

@@ -41,7 +41,10 @@ pub(super) async fn pack(load: &Load) -> Result<String, String> {
         Load::Bytes(bytes) => (b'B', &bytes[..]),
     };
     if data.len() > MOST {
-        return Err(too_long(data.len()));
+        return Err(format!(
+            "Too long for a link: more than {} MB of input.",
+            MOST / 1_000_000
+        ));
     }
     let mut all = vec![kind];
     all.extend(data);

@@ -1,6 +1,7 @@
 //! Where input comes from: text, bytes, or a file that is read in pieces.
 
 use crate::browser::error_text;
+use encoderscope::detect::Change;
 use js_sys::Uint8Array;
 use std::rc::Rc;
 use wasm_bindgen_futures::JsFuture;
@@ -134,9 +135,10 @@ impl Recoder {
 /// What begins a file that the page wrote, before its profile.
 const MARK: &str = "# Encoderscope recording 1 · ";
 
-/// The first line of a recording.
-pub(super) fn title(profile: &str) -> String {
-    format!("{MARK}{profile}\n")
+/// The first line of a recording; `change` is the mistake that is to be undone.
+pub(super) fn title(profile: &str, change: Option<Change>) -> String {
+    let change = change.map(|change| format!("&change={}", change.code()));
+    format!("{MARK}{profile}{}\n", change.unwrap_or_default())
 }
 
 /// The profile that a recording begins with, and where its data begins.

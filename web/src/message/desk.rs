@@ -23,13 +23,20 @@ pub enum ToDesk {
     Link {
         /// The value of its parameter.
         payload: String,
+        /// The mistake of the capture that is to be undone; empty for none.
+        change: String,
         /// The profile, as the parameters of a link.
         profile: String,
     },
     /// Decode the same input with another profile.
     Profile(String),
-    /// Change the input as a candidate says, and decode it with its profile.
-    Change(usize),
+    /// Undo a mistake of the capture, by its code in links, or none, and decode with a profile.
+    Change {
+        /// The mistake; empty for none.
+        change: String,
+        /// The profile, as the parameters of a link.
+        profile: String,
+    },
     /// Stop reading; what has been decoded stays.
     Cancel,
     /// Which rows to show, and in which order.
@@ -62,8 +69,8 @@ pub enum ToDesk {
     },
     /// Write everything that is shown into a file.
     Export(FileKind),
-    /// Put the input into a link.
-    Share,
+    /// Put the input into a link; the number comes back with it.
+    Share(u32),
     /// Explain the rows that a report shows.
     Report,
     /// Write the decoder in a programming language, by its name.
@@ -119,6 +126,8 @@ pub enum FromDesk {
         text: Option<String>,
         /// The profile, where the file says which.
         profile: Option<String>,
+        /// The mistake that is undone, where the file says so.
+        change: Option<String>,
     },
     /// The profile that a recording of clock and data is read with, where the page's has no clock.
     Taken(String),
@@ -145,7 +154,7 @@ pub enum FromDesk {
     /// The angle over the rows.
     Trace(TraceView),
     /// The value of a link's parameter, or why there is none.
-    Shared(Result<String, String>),
+    Shared(u32, Result<String, String>),
     /// A file was written.
     Exported(FileKind),
     /// The rows of a report.
@@ -208,6 +217,8 @@ pub struct Overview {
     pub conditions: Vec<Count>,
     /// What is wrong with the timing of a capture.
     pub timing: Vec<Count>,
+    /// Whether the input is a recording of clock and data.
+    pub captured: bool,
     /// What was found out about a capture.
     pub notes: Vec<String>,
     /// Smallest and largest angle in degrees.
@@ -340,7 +351,7 @@ pub struct CandidateView {
     pub verdict: String,
     /// Why, in sentences.
     pub evidence: Vec<String>,
-    /// What must be done to the input first.
+    /// The mistake of the capture that must be undone first, as a link has it.
     pub change: Option<String>,
 }
 

@@ -42,7 +42,7 @@ pub(crate) fn Decode() -> impl IntoView {
         if let Some(profile) = desk.found.get() {
             // Once: what the user chooses later stands.
             desk.found.set(None);
-            app.change_profile(profile);
+            app.profile.set(profile);
         }
     });
     // The first frame is explained until a row is chosen.

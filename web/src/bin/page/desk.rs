@@ -1,9 +1,13 @@
 //! The page's end of the worker that decodes dumps: what was asked of it, and what it said.
 
+mod link;
+
+pub(crate) use link::end_text;
+
 use crate::Workers;
-use encoderscope::{profile::Profile, sheet::Quantity};
+use encoderscope::profile::Profile;
 use encoderscope_web::{
-    link::{self, Fragment, encode, query},
+    link::{self as links, query},
     message::{
         CandidateView, Explained, FileKind, FromDesk, Marked, Overview, RowView, Selection, ToDesk,
         TraceView,
@@ -51,8 +55,8 @@ pub(crate) struct Desk {
     pub(crate) candidates: RwSignal<Vec<CandidateView>>,
     /// Whether it is still being found out what the input may be.
     pub(crate) judging: RwSignal<bool>,
-    /// The candidate whose mistake of the capture is undone.
-    pub(crate) changed: RwSignal<Option<usize>>,
+    /// The mistake of the capture that is undone, as a link has it.
+    pub(crate) changed: RwSignal<Option<String>>,
     pub(crate) explained: RwSignal<Option<Explained>>,
     pub(crate) trace: RwSignal<TraceView>,
     pub(crate) marks: RwSignal<Vec<Marked>>,
@@ -67,6 +71,8 @@ pub(crate) struct Desk {
     pub(crate) chosen: RwSignal<Option<usize>>,
     /// The place of the row that is explained among those that are shown, where it is known.
     pub(crate) place: StoredValue<Option<usize>>,
+    /// A row was looked for that is not there.
+    pub(crate) lost: RwSignal<bool>,
     /// Where the table is to go: a place among the rows that are shown.
     pub(crate) goal: RwSignal<Option<usize>>,
     /// The profile that the candidates lead to, where nobody has chosen one.
@@ -74,6 +80,8 @@ pub(crate) struct Desk {
     pub(crate) choice: RwSignal<Choice>,
     typing: StoredValue<Option<TimeoutHandle>>,
     settling: StoredValue<Option<TimeoutHandle>>,
+    /// Counts inputs, so that the payload of an earlier one is known.
+    shares: StoredValue<u32>,
     profile: StoredValue<Option<Profile>>,
 }
 
@@ -101,11 +109,13 @@ impl Desk {
             selection: RwSignal::new(Selection::default()),
             chosen: RwSignal::new(None),
             place: StoredValue::new(None),
+            lost: RwSignal::new(false),
             goal: RwSignal::new(None),
             found: RwSignal::new(None),
             choice: RwSignal::new(Choice::Nobody),
             typing: StoredValue::new(None),
             settling: StoredValue::new(None),
+            shares: StoredValue::new(0),
             profile: StoredValue::new(None),
         }
     }
@@ -196,20 +206,27 @@ impl Desk {
                 }
                 self.overview.set(*overview);
             }
-            FromDesk::Opened { text, profile } => {
+            FromDesk::Opened {
+                text,
+                profile,
+                change,
+            } => {
+                if change.is_some() {
+                    self.changed.set(change);
+                }
                 if let Some(text) = text {
                     self.sent.set_value(text.clone());
                     self.text.set(text);
                     self.file.set(None);
                 }
-                if let Some(profile) = profile.and_then(|profile| link::profile(&profile).ok()) {
+                if let Some(profile) = profile.and_then(|profile| links::profile(&profile).ok()) {
                     self.choice.set(Choice::User);
                     self.profile.set_value(Some(profile));
                     self.found.set(Some(profile));
                 }
             }
             FromDesk::Taken(profile) => {
-                let profile = link::profile(&profile).ok();
+                let profile = links::profile(&profile).ok();
                 self.profile.set_value(profile);
                 self.found.set(profile);
             }
@@ -217,16 +234,18 @@ impl Desk {
             FromDesk::Rows { first, rows } => self.rows.set((first, rows)),
             FromDesk::Candidates { found, done } => {
                 let best = found.first().filter(|best| best.change.is_none());
+                // The frames of a recording are cut by its profile.
+                let captured = self.overview.with_untracked(|overview| overview.captured);
                 let reads = self
                     .overview
                     .with_untracked(|overview| overview.frames > overview.bad);
                 let better = best.filter(|best| match best.verdict.as_str() {
                     "certain" | "likely" => true,
                     // It reads something where the present profile reads nothing.
-                    "ambiguous" => !reads,
+                    "ambiguous" => !reads && !captured,
                     _ => false,
                 });
-                let profile = better.and_then(|best| link::profile(&best.profile).ok());
+                let profile = better.and_then(|best| links::profile(&best.profile).ok());
                 if self.choice.get_untracked() == Choice::Nobody && profile.is_some() {
                     self.found.set(profile);
                 }
@@ -235,6 +254,7 @@ impl Desk {
             }
             FromDesk::Explained(explained) => self.explained.set(Some(*explained)),
             FromDesk::Found(found) => {
+                self.lost.set(found.is_none());
                 if let Some((place, index)) = found {
                     self.place.set_value(Some(place));
                     self.goal.set(Some(place));
@@ -242,7 +262,11 @@ impl Desk {
                 }
             }
             FromDesk::Trace(trace) => self.trace.set(trace),
-            FromDesk::Shared(payload) => self.payload.set(Some(payload)),
+            // What was packed before the input changed is not wanted any more.
+            FromDesk::Shared(number, payload) if number == self.shares.get_value() => {
+                self.payload.set(Some(payload));
+            }
+            FromDesk::Shared(..) => {}
             FromDesk::Exported(kind) => save(file, kind),
             FromDesk::Report(report) => self.report.set(report),
             FromDesk::Source(source) => self.source.set(Some(source)),
@@ -288,6 +312,10 @@ impl Desk {
 
     /// What was said of other input is not true any more.
     fn forget(self) {
+        self.shares.update_value(|number| *number += 1);
+        if let Some(before) = self.settling.get_value() {
+            before.clear();
+        }
         self.refusal.set(None);
         self.marks.set(Vec::new());
         self.candidates.set(Vec::new());
@@ -297,6 +325,7 @@ impl Desk {
         self.selection.set(Selection::default());
         self.chosen.set(None);
         self.place.set_value(None);
+        self.lost.set(false);
         self.goal.set(Some(0));
         self.explained.set(None);
     }
@@ -307,19 +336,27 @@ impl Desk {
             return;
         }
         self.profile.set_value(Some(profile));
-        self.changed.set(None);
         self.explained.set(None);
         if self.worker.with_value(Option::is_some) {
             self.send(ToDesk::Profile(query(&profile)));
         }
     }
 
-    /// Undoes the mistake of the capture that a candidate names, and decodes with its profile.
-    pub(crate) fn change(self, index: usize, profile: Profile) {
+    /// Undoes the mistake of the capture that a candidate names, or none, and decodes with its
+    /// profile.
+    pub(crate) fn change(self, change: Option<String>, profile: Profile) {
         self.profile.set_value(Some(profile));
-        self.changed.set(Some(index));
+        self.changed.set(change.clone());
         self.explained.set(None);
-        self.send(ToDesk::Change(index));
+        self.send(ToDesk::Change {
+            change: change.unwrap_or_default(),
+            profile: query(&profile),
+        });
+    }
+
+    /// Packs the input for a link.
+    pub(crate) fn share(self) {
+        self.send(ToDesk::Share(self.shares.get_value()));
     }
 
     /// Puts the input into the link when it has stayed as it is for a while.
@@ -328,99 +365,16 @@ impl Desk {
             before.clear();
         }
         let share = move || {
-            if self.payload.with_untracked(Option::is_none) && !self.is_empty() {
-                self.send(ToDesk::Share);
+            let typing = self.file.with_untracked(Option::is_none)
+                && self
+                    .sent
+                    .with_value(|sent| *sent != self.text.get_untracked());
+            if self.payload.with_untracked(Option::is_none) && !self.is_empty() && !typing {
+                self.share();
             }
         };
         self.settling
             .set_value(set_timeout_with_handle(share, SETTLED).ok());
-    }
-
-    /// Takes over what a link says.
-    pub(crate) fn follow_link(self, fragment: &Fragment) {
-        let profile = match fragment.profile() {
-            Some(Ok(profile)) => {
-                self.choice.set(Choice::User);
-                profile
-            }
-            _ => self
-                .profile
-                .get_value()
-                .unwrap_or_else(|| encoderscope::format::Format::T485.default_profile()),
-        };
-        let value = |name: &str| fragment.value(name).map(ToOwned::to_owned);
-        if let Some(payload) = value("frames") {
-            self.forget();
-            self.payload.set(Some(Ok(payload.clone())));
-            self.profile.set_value(Some(profile));
-            let profile = query(&profile);
-            self.file.set(Some("frames from a link".into()));
-            self.send(ToDesk::Link { payload, profile });
-        } else if let Some(text) = value("dump") {
-            self.profile.set_value(Some(profile));
-            self.typed(text, &profile);
-        } else {
-            return;
-        }
-        let numbers = |text: String| {
-            let mut parts = text.split(':');
-            let name = parts.next()?.to_owned();
-            Some((
-                name,
-                parts.next()?.parse().ok()?,
-                parts.next()?.parse().ok()?,
-            ))
-        };
-        let order = value("sort").map(|name| match name.strip_prefix('-') {
-            Some(name) => (name.to_owned(), true),
-            None => (name, false),
-        });
-        self.selection.set(Selection {
-            show: value("show").unwrap_or_default(),
-            status: value("bits")
-                .and_then(|bits| bits.parse().ok())
-                .unwrap_or(0),
-            range: value("range").and_then(numbers),
-            order: order.filter(|(name, _)| Quantity::parse(name).is_some()),
-        });
-        self.chosen
-            .set(value("row").and_then(|row| row.parse().ok()));
-        self.goal.set(self.chosen.get_untracked());
-    }
-
-    /// What a link says of the input and of what is shown of it.
-    pub(crate) fn fragment(self) -> String {
-        let mut text = String::new();
-        if self.is_empty() {
-            return text;
-        }
-        let mut add = |name: &str, value: String| text += &format!("&{name}={}", encode(&value));
-        let Selection {
-            show,
-            status,
-            range,
-            order,
-        } = self.selection.get();
-        if !show.is_empty() && show != "all" {
-            add("show", show);
-        }
-        if status != 0 {
-            add("bits", status.to_string());
-        }
-        if let Some((name, low, high)) = range {
-            add("range", format!("{name}:{low}:{high}"));
-        }
-        if let Some((name, descending)) = order {
-            add("sort", if descending { format!("-{name}") } else { name });
-        }
-        if let Some(row) = self.chosen.get() {
-            add("row", row.to_string());
-        }
-        // The longest part last: where a mail program cuts it the rest is still said.
-        if let Some(Ok(payload)) = self.payload.get() {
-            add("frames", payload);
-        }
-        text
     }
 }
 

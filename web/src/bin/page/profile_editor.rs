@@ -79,7 +79,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
         if let Some(format) = Format::parse(&name) {
             fault.set(None);
             let new = match format {
-                Format::Own => crate::decode::first_own(),
+                Format::Own => crate::decode::first_own(offer),
                 known => Some(known.default_profile()),
             };
             if let Some(new) = new {
@@ -108,7 +108,10 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
     let formats = Format::ALL
         .iter()
         .chain(&[Format::Own])
-        .filter(move |format| offer == Offer::All || format.default_profile().is_serial());
+        .filter(move |format| {
+            let serial = format.default_profile().is_serial() || **format == Format::Own;
+            offer == Offer::All || serial
+        });
     let format = Memo::new(move |_| app.profile.get().format);
     let shown = move |rare: bool| {
         let format = format.get();

@@ -36,21 +36,22 @@ pub(super) fn Candidates() -> impl IntoView {
     let app = expect_context::<App>();
     let desk = app.desk;
     let all = RwSignal::new(false);
-    let row = move |(index, candidate): (usize, CandidateView)| {
+    let row = move |candidate: CandidateView| {
         let profile = link::profile(&candidate.profile).ok()?;
         let value = format!("{}&verdict={}", candidate.profile, candidate.verdict);
-        let changes = candidate.change.is_some();
+        let change = candidate.change.clone();
+        let mine = change.clone();
         let choose = move |_| {
             desk.choice.set(Choice::User);
-            if changes {
-                desk.change(index, profile);
+            if desk.changed.get_untracked() != change {
+                desk.change(change.clone(), profile);
             }
             app.change_profile(profile);
         };
         Some(view! {
             <button
                 class="candidate"
-                class:chosen=move || app.profile.get() == profile && desk.changed.get() == changes.then_some(index)
+                class:chosen=move || app.profile.get() == profile && desk.changed.get() == mine
                 data-testid="candidate"
                 data-value=value
                 on:click=choose
@@ -64,6 +65,9 @@ pub(super) fn Candidates() -> impl IntoView {
     move || {
         let found = desk.candidates.get();
         let more = found.len() > BEST;
+        let reads = desk
+            .overview
+            .with(|overview| overview.frames > overview.bad);
         let judging = desk.judging.get() && !desk.is_empty();
         let some = if all.get() { found.len() } else { BEST };
         let nothing =
@@ -73,10 +77,13 @@ pub(super) fn Candidates() -> impl IntoView {
                 <div class="candidates">
                     <h2>"What it is"</h2>
                     {nothing.then(|| view! {
-                        <p class="hint" data-testid="no-candidate">"No known format fits. More frames, or frames of a turning shaft, may tell."</p>
+                        <p class="hint" data-testid="no-candidate">{match reads {
+                            true => "Nothing in these frames tells the formats apart: choose the one of your encoder below. More frames, of a turning shaft, may tell.",
+                            false => "No known format fits. More frames, or frames of a turning shaft, may tell.",
+                        }}</p>
                     })}
                     {judging.then(|| view! { <p class="hint">"Comparing with every format…"</p> })}
-                    {found.into_iter().take(some).enumerate().filter_map(row).collect_view()}
+                    {found.into_iter().take(some).filter_map(row).collect_view()}
                     {(more && !all.get()).then(|| view! {
                         <button class="quiet" on:click=move |_| all.set(true)>"More"</button>
                     })}

@@ -1,6 +1,6 @@
 //! A layout of the user's own: a row a field, over the same tables as the manuals' formats.
 
-use crate::app::App;
+use crate::{app::App, profile_editor::Offer};
 use encoderscope::{
     format::own::{Draft, Framing, Kind, SHIPPED, Written},
     layout::Active,
@@ -134,6 +134,10 @@ pub(super) fn OwnEditor() -> impl IntoView {
         }
     };
     let short = move || app.profile.get().own.map_or("", |own| own.short());
+    let poll = move |text: String| match format!("poll:{}", text.trim()).parse::<Framing>() {
+        Ok(framing) => change(&|written| written.framing = framing),
+        Err(why) => fault.set(Some(why)),
+    };
     view! {
         <div class="own" data-testid="own">
             <div class="profile">
@@ -168,6 +172,19 @@ pub(super) fn OwnEditor() -> impl IntoView {
                     </select>
                 </label>
             </div>
+            {move || match written.get().map(|written| written.framing) {
+                Some(Framing::Poll(byte)) => Some(view! {
+                    <label class="poll">
+                        "It answers to the byte"
+                        <input
+                            data-testid="own-poll"
+                            prop:value=format!("{byte:02X}")
+                            on:change:target=move |event| poll(event.target().value())
+                        />
+                    </label>
+                }),
+                _ => None,
+            }}
             <table>
                 <thead><tr><th>"kind"</th><th>"bits"</th><th>"name"</th><th>"low"</th><th>"details"</th><th></th></tr></thead>
                 <tbody>
@@ -176,7 +193,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
                     })}
                 </tbody>
             </table>
-            <button data-testid="own-add" on:click=move |_| change(&|written| written.fields.push(Draft::new(Kind::Skip, 1)))>"Add a field"</button>
+            <button data-testid="own-add" on:click=move |_| change(&|written| written.fields.push(Draft::new(Kind::Skip, match written.framing { Framing::Line | Framing::Biss => 1, Framing::Stream | Framing::Poll(_) => 8 })))>"Add a field"</button>
             <label>
                 "As text"
                 <textarea
@@ -194,7 +211,8 @@ pub(super) fn OwnEditor() -> impl IntoView {
 }
 
 /// The profile that the editor begins with.
-pub(crate) fn first() -> Option<Profile> {
-    let shipped = SHIPPED.first()?;
-    Profile::parse([("format", "own"), ("layout", shipped.name)]).ok()
+pub(crate) fn first(offer: Offer) -> Option<Profile> {
+    let profile = |name| Profile::parse([("format", "own"), ("layout", name)]).ok();
+    let mut all = SHIPPED.iter().filter_map(|shipped| profile(shipped.name));
+    all.find(|profile| offer == Offer::All || profile.is_serial())
 }

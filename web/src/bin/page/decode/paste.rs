@@ -12,7 +12,7 @@ use web_sys::{Blob, ClipboardEvent, DragEvent};
 /// Letters that the box takes; a text box with more is slow to draw.
 const BOXED: usize = 200_000;
 /// Letters of the text whose reading is shown.
-const SHOWN: usize = 20_000;
+const SHOWN: usize = 8_000;
 
 /// An example of each format, from public captures and the manuals' rules.
 const fn example(format: Format) -> &'static str {

@@ -3,7 +3,7 @@
 //! A browser draws no element of 300 million pixels, so beyond a limit the scroll bar stands for
 //! parts of the table instead of pixels, and the wheel moves rows, not the bar.
 
-use crate::app::App;
+use crate::{app::App, desk::end_text};
 use encoderscope::{
     explain::grouped_signed,
     format::STATUS,
@@ -271,7 +271,7 @@ fn Line(row: RowView, place: usize, shown: Memo<Option<usize>>) -> impl IntoView
         desk.chosen.set(Some(index));
     };
     let time = timed.then(|| {
-        let text = row.time.map(|time| format!("{time:.6}"));
+        let text = row.time.map(time_text);
         view! { <td class="time">{text}</td> }
     });
     let start = row.start as u64;
@@ -324,6 +324,27 @@ fn Line(row: RowView, place: usize, shown: Memo<Option<usize>>) -> impl IntoView
     .into_any()
 }
 
+/// Seconds, or a time of day.
+fn seconds_of(text: &str) -> Option<f64> {
+    let text = text.trim().replace(',', ".");
+    let parts: Vec<f64> = text
+        .split(':')
+        .map(|part| part.parse().ok())
+        .collect::<Option<_>>()?;
+    (parts.len() <= 3).then(|| parts.iter().fold(0.0, |sum, part| sum * 60.0 + part))
+}
+
+/// A time as the log wrote it: of the day where it is hours.
+fn time_text(seconds: f64) -> String {
+    const HOUR: f64 = 3600.0;
+    if seconds < HOUR {
+        return format!("{seconds:.6}");
+    }
+    let whole = seconds.floor() as u64;
+    let (hours, minutes) = (whole / 3600, whole / 60 % 60);
+    format!("{hours:02}:{minutes:02}:{:06.3}", seconds % 60.0)
+}
+
 /// What a show is called on the page.
 const fn title(show: Show) -> &'static str {
     match show {
@@ -361,7 +382,15 @@ fn FilterBar() -> impl IntoView {
             </button>
         }
     });
-    let quantity = RwSignal::new(Quantity::Degrees);
+    let (of, from, to) = desk
+        .selection
+        .with_untracked(|selection| selection.range.clone())
+        .unwrap_or((Quantity::Degrees.name().into(), f64::MIN, f64::MAX));
+    let quantity = RwSignal::new(Quantity::parse(&of).unwrap_or(Quantity::Degrees));
+    let chosen = quantity.get_untracked();
+    let is_filtered = desk
+        .selection
+        .with_untracked(|selection| selection.range.is_some() || selection.status != 0);
     let low = NodeRef::<html::Input>::new();
     let high = NodeRef::<html::Input>::new();
     let apply = move || {
@@ -380,11 +409,13 @@ fn FilterBar() -> impl IntoView {
         update(&|selection| selection.range = range.clone());
     };
     let go = move |text: String| {
-        if let Ok(seconds) = text.trim().replace(',', ".").parse::<f64>() {
-            match desk.overview.with_untracked(|overview| overview.timed) {
-                true => desk.send(ToDesk::Seek(seconds)),
-                false => desk.send(ToDesk::Place((seconds as usize).saturating_sub(1))),
-            }
+        desk.lost.set(false);
+        let Some(seconds) = seconds_of(&text) else {
+            return desk.lost.set(true);
+        };
+        match desk.overview.with_untracked(|overview| overview.timed) {
+            true => desk.send(ToDesk::Seek(seconds)),
+            false => desk.send(ToDesk::Place((seconds as usize).saturating_sub(1))),
         }
     };
     let next = move |_| {
@@ -421,12 +452,13 @@ fn FilterBar() -> impl IntoView {
             <div class="bar-of" role="group" aria-label="Which rows">{shows.into_iter().collect_view()}</div>
             <button class="quiet" data-testid="next-fault" on:click=next>"next fault ↓"</button>
             <label class="go">
-                {move || if desk.overview.get().timed { "Go to second" } else { "Go to row" }}
+                {move || if desk.overview.get().timed { "Go to time" } else { "Go to row" }}
                 <input inputmode="decimal" data-testid="go" on:change:target=move |event| go(event.target().value()) />
             </label>
             <span class="hint" data-testid="shown">{shown}</span>
+            {move || desk.lost.get().then(|| view! { <span class="hint" role="status" data-testid="no-row">"There is no such row."</span> })}
         </div>
-        <details class="filters-more">
+        <details class="filters-more" open=is_filtered>
             <summary>"Filter by value or status"</summary>
             <div class="filters">
                 <label>
@@ -439,12 +471,12 @@ fn FilterBar() -> impl IntoView {
                         }
                     >
                         {Quantity::ALL.into_iter().map(|known| view! {
-                            <option value=known.name() selected=known == Quantity::Degrees>{known.name()}</option>
+                            <option value=known.name() selected=known == chosen>{known.name()}</option>
                         }).collect_view()}
                     </select>
                 </label>
-                <label>"from" <input inputmode="decimal" data-testid="range-low" node_ref=low on:change=move |_| apply() /></label>
-                <label>"to" <input inputmode="decimal" data-testid="range-high" node_ref=high on:change=move |_| apply() /></label>
+                <label>"from" <input inputmode="decimal" data-testid="range-low" value=end_text(from) node_ref=low on:change=move |_| apply() /></label>
+                <label>"to" <input inputmode="decimal" data-testid="range-high" value=end_text(to) node_ref=high on:change=move |_| apply() /></label>
                 <div class="status-bits">{bits}</div>
             </div>
         </details>

@@ -4,10 +4,6 @@ use crate::app::App;
 use encoderscope::export::Language;
 use encoderscope_web::message::{FileKind, ToDesk};
 use leptos::prelude::*;
-use std::time::Duration;
-
-/// The page waits so long for the rows of the report.
-const REPORT: Duration = Duration::from_millis(400);
 
 /// Puts text on the clipboard, then says whether it is there.
 fn copy(text: String, said: RwSignal<Option<String>>, success: &'static str) {
@@ -59,7 +55,7 @@ pub(super) fn Share() -> impl IntoView {
     });
     let share = move |_| {
         if desk.payload.with_untracked(Option::is_none) {
-            desk.send(ToDesk::Share);
+            desk.share();
         }
         wanted.set(true);
     };
@@ -68,16 +64,22 @@ pub(super) fn Share() -> impl IntoView {
             <button data-testid=id on:click=move |_| desk.send(ToDesk::Export(kind))>{title}</button>
         }
     };
+    let printing = RwSignal::new(false);
     let print = move |_| {
+        printing.set(true);
         desk.send(ToDesk::Report);
-        set_timeout(
-            || {
+    };
+    Effect::new(move || {
+        desk.report.track();
+        if printing.get_untracked() {
+            printing.set(false);
+            // When what came has been drawn.
+            request_animation_frame(|| {
                 // Where nothing can be printed the report is only not printed.
                 let _ = window().print();
-            },
-            REPORT,
-        );
-    };
+            });
+        }
+    });
     Effect::new(move || {
         if let Some(source) = desk.source.get() {
             desk.source.set(None);
