@@ -4,6 +4,7 @@ use crate::message::Count;
 use encoderscope::{
     capture::{Clocked, Clocking, Kind, Options, Recording, Unreadable, Violation},
     decode::Decoder,
+    detect::Detection,
     dump::Dump,
     format::{Format, Link},
     profile::Profile,
@@ -67,7 +68,21 @@ fn is_biss(read: &Recording) -> bool {
     };
     let first = read.frames.first().and_then(acknowledge);
     let mut frames = read.frames.iter();
-    first.is_some() && frames.all(|frame| acknowledge(frame) == first)
+    first.is_some() && frames.all(|frame| acknowledge(frame) == first) && holds_check(read)
+}
+
+/// Whether BiSS-C explains the first frames best: a word of SSI with few turns begins with zeros
+/// and a one as well.
+fn holds_check(read: &Recording) -> bool {
+    const ENOUGH: usize = 64;
+    let frames = read.frames.iter().take(ENOUGH);
+    let dump = Dump::of_lines(frames.map(|frame| (frame.bits.clone(), None)));
+    let mut detection = Detection::new(&dump, &dump, &dump);
+    while detection.step() {}
+    let found = detection.candidates();
+    found
+        .first()
+        .is_some_and(|best| best.profile.format == Format::BissC)
 }
 
 /// The SSI profile whose words have as many bits as most words of a recording.
