@@ -29,7 +29,7 @@ const TIME: &str = "time";
 /// let table = Table::new(&decoder);
 /// let frame = decoder.frame(b"8192\r\n").unwrap();
 /// assert!(table.header().starts_with("start,time,ok,turns,angle,degrees,"));
-/// assert!(table.frame(&frame, Some(2_500_000)).starts_with("0,2.500000,true,,8192,180,"));
+/// assert!(table.frame(&frame, Some(2.5)).starts_with("0,2.500000,true,,8192,180,"));
 /// # Ok::<(), encoderscope::profile::ProfileError>(())
 /// ```
 #[derive(Clone, Debug)]

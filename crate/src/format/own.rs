@@ -7,7 +7,7 @@
 //! use encoderscope::{decode::Decoder, profile::Profile};
 //! let layout = "Counter;stream;const:8:0xa5,angle:16,crc:8:0x07";
 //! let decoder = Decoder::new(Profile::parse([("format", "own"), ("layout", layout)])?)?;
-//! let frame = decoder.frame(&[0xa5, 0x40, 0x00, 0x2a]).unwrap();
+//! let frame = decoder.frame(&[0xa5, 0x40, 0x00, 0xd3]).unwrap();
 //! assert!(frame.ok(), "{:?}", frame.faults());
 //! assert_eq!(frame.reading().unwrap().degrees(), 90.0);
 //! # Ok::<(), encoderscope::profile::ProfileError>(())

@@ -2,9 +2,9 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use encoderscope::{
-    detect::{Verdict, detect},
+    detect::{Detection, Verdict, detect},
     emulator::{Emulator, Shaft},
-    format::Format,
+    format::{Format, Medium},
     reading::Values,
     record::hex,
 };
@@ -101,4 +101,21 @@ fn evidence_is_said_in_sentences() {
         record.contains(r#""verdict":"certain","evidence":["the check holds in 10 of 10 frames""#),
         "{record}"
     );
+}
+
+#[test]
+fn a_detection_in_steps_comes_to_the_same() {
+    let text = dump("format=bus angle-bits=20", 60);
+    let parse = |medium| encoderscope::dump::parse(&text, medium);
+    let mut detection = Detection::new(
+        &parse(Medium::Bytes),
+        &parse(Medium::Bits),
+        &parse(Medium::Text),
+    );
+    let mut steps = 0;
+    while detection.step() {
+        steps += 1;
+    }
+    assert!(steps > 50);
+    assert_eq!(detection.candidates(), detect(&text));
 }

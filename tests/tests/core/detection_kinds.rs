@@ -3,7 +3,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use encoderscope::{
     decode::Decoder,
-    detect::{Candidate, Change, Detection, Verdict, detect, near},
+    detect::{Candidate, Change, Verdict, detect, near},
     dump,
     emulator::{Emulator, Shaft},
     format::{Format, Medium},
@@ -486,21 +486,4 @@ fn captures_of_others_come_out_right() {
             "{best:#?}"
         );
     }
-}
-
-#[test]
-fn a_detection_in_steps_comes_to_the_same() {
-    let text = dump_of("format=bus angle-bits=20", TURNING);
-    let parse = |medium| dump::parse(&text, medium);
-    let mut detection = Detection::new(
-        &parse(Medium::Bytes),
-        &parse(Medium::Bits),
-        &parse(Medium::Text),
-    );
-    let mut steps = 0;
-    while detection.step() {
-        steps += 1;
-    }
-    assert!(steps > 50);
-    assert_eq!(detection.candidates(), detect(&text));
 }
