@@ -24,6 +24,9 @@ const TYPED: Duration = Duration::from_millis(120);
 /// The link follows when nothing was changed for so long.
 const SETTLED: Duration = Duration::from_millis(500);
 
+/// A worker that is asked to stop does so in this time, or is at something that cannot be stopped.
+const PATIENCE: Duration = Duration::from_millis(1_500);
+
 /// Who has chosen the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Choice {
@@ -179,6 +182,13 @@ impl Desk {
 
     /// The worker is gone; the next input gets another one.
     fn break_down(self) {
+        self.dismiss(
+            "Decoding broke down: the input may need more memory than this browser gives. Cut it in pieces, or reload the page.",
+        );
+    }
+
+    /// Lets the worker go, whatever it is at.
+    fn dismiss(self, why: &str) {
         self.worker.update_value(|worker| {
             if let Some(worker) = worker.take() {
                 worker.terminate();
@@ -186,10 +196,29 @@ impl Desk {
         });
         self.waiting.set_value(Some(Vec::new()));
         self.sent.set_value(String::new());
-        self.overview.set(Overview::default());
-        self.refusal.set(Some(
-            "Decoding broke down: the input may need more memory than this browser gives. Cut it in pieces, or reload the page.".into(),
-        ));
+        self.judging.set(false);
+        self.overview.set(Overview {
+            done: true,
+            ..Overview::default()
+        });
+        self.refusal.set(Some(why.into()));
+    }
+
+    /// Stops reading; what has been decoded stays, where the worker hears it in time.
+    pub(crate) fn cancel(self) {
+        self.send(ToDesk::Cancel);
+        let input = self.shares.get_value();
+        let dismiss = move || {
+            let same = self.shares.try_get_value() == Some(input);
+            let busy = self
+                .overview
+                .try_with_untracked(|overview| !overview.done)
+                .unwrap_or(false);
+            if busy && same {
+                self.dismiss("Stopped. A recording of clock and data is read as a whole: nothing of it is kept.");
+            }
+        };
+        set_timeout(dismiss, PATIENCE);
     }
 
     fn receive(self, message: FromDesk, file: &JsValue) {

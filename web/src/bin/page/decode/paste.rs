@@ -3,7 +3,7 @@
 use super::plural;
 use crate::app::App;
 use encoderscope::format::Format;
-use encoderscope_web::message::{Marked, ToDesk};
+use encoderscope_web::message::Marked;
 use js_sys::Array;
 use leptos::{ev, html, prelude::*};
 use wasm_bindgen::{JsCast, JsValue};
@@ -172,7 +172,7 @@ fn Progress() -> impl IntoView {
                 <div class="progress" data-testid="progress" data-value=percent.to_string()>
                     <progress max="100" value=percent.to_string() aria-label="Reading"></progress>
                     <span class="number">{format!("{percent} %")}</span>
-                    <button data-testid="cancel" on:click=move |_| desk.send(ToDesk::Cancel)>"Stop"</button>
+                    <button data-testid="cancel" on:click=move |_| desk.cancel()>"Stop"</button>
                 </div>
             }
         })
