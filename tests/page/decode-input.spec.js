@@ -326,6 +326,7 @@ test('a recording of SSI alone is not taken for BiSS', async ({ page }) => {
 test('a long recording can be stopped, and other input is read then', async ({ page }) => {
   test.setTimeout(90_000);
   await page.goto('/#/decode');
+  await expect(page.locator('.drop')).toBeVisible();
   await page.evaluate(() => {
     const head = '$timescale 1 ns $end\n$var wire 1 ! clk $end\n$var wire 1 " data $end\n$enddefinitions $end\n#0\n1!\n1"\n';
     // Words of 25 bits, each behind a pause; the data line follows the clock.
@@ -380,6 +381,7 @@ test('a link with a wrong profile says so, and its frames are there', async ({ p
 test('100 MB open with progress, the page stays awake, and reading can be stopped', async ({ page }) => {
   test.setTimeout(240_000);
   await page.goto('/#/decode?format=t485');
+  await expect(page.locator('.drop')).toBeVisible();
   await page.evaluate(() => {
     window.tasks = [];
     new PerformanceObserver((list) => window.tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({
