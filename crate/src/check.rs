@@ -1,7 +1,8 @@
-//! Checksums of the frames of the manuals, computed with the `crc` crate.
+//! Checksums of the frames of the manuals, and of a user's own, computed with the `crc` crate.
 //!
-//! All of them start from 0, so leading zero bits do not change them: a bit string of any
-//! length is right-aligned into bytes first.
+//! Those of the manuals start from 0, so leading zero bits do not change them: a bit string of any
+//! length is right-aligned into bytes first. One that does not, or is reflected, covers whole
+//! bytes: [`crate::format::own`] refuses any other.
 
 mod algorithm;
 

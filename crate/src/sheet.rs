@@ -125,25 +125,23 @@ impl Sheet {
 
     /// Decodes about `budget` bytes more; whether there is more to decode now.
     pub fn step(&mut self, dump: &Dump, budget: usize) -> bool {
-        let mut sink = Rows {
-            dump,
-            bits: self.decoder.profile().medium() == Medium::Bits,
-            line: 0,
-            rows: &mut self.rows,
-            lost: &mut self.lost,
-            figures: &mut self.figures,
-            trace: &mut self.trace,
-        };
-        let more = self.pass.step(&self.decoder, dump, budget, &mut |decoded| {
-            sink.add(&decoded);
-        });
-        self.figures.summary = self.pass.summary();
-        more
+        self.run(dump, |pass, decoder, sink| {
+            pass.step(decoder, dump, budget, sink)
+        })
     }
 
     /// Nothing more will come: what was held back is decided.
     pub fn finish(&mut self, dump: &Dump) {
-        let mut sink = Rows {
+        self.run(dump, |pass, decoder, sink| pass.finish(decoder, dump, sink));
+    }
+
+    /// Takes the rows that come out of the pass.
+    fn run<T>(
+        &mut self,
+        dump: &Dump,
+        with: impl FnOnce(&mut Pass, &Decoder, &mut dyn FnMut(Decoded<'_>)) -> T,
+    ) -> T {
+        let mut rows = Rows {
             dump,
             bits: self.decoder.profile().medium() == Medium::Bits,
             line: 0,
@@ -152,10 +150,11 @@ impl Sheet {
             figures: &mut self.figures,
             trace: &mut self.trace,
         };
-        self.pass.finish(&self.decoder, dump, &mut |decoded| {
-            sink.add(&decoded);
+        let out = with(&mut self.pass, &self.decoder, &mut |decoded| {
+            rows.add(&decoded);
         });
         self.figures.summary = self.pass.summary();
+        out
     }
 
     /// Number of rows.
