@@ -7,8 +7,8 @@ mod desk;
 mod search;
 
 pub use desk::{
-    CandidateView, Count, Explained, FieldView, FileKind, FromDesk, Marked, Overview, RowState,
-    RowView, Selection, ToDesk, TraceView,
+    CandidateView, Count, Explained, FieldView, FileKind, FromDesk, Marked, NearView, Overview,
+    RowState, RowView, Selection, ToDesk, TraceView,
 };
 pub use search::{Found, Search, SearchStage, Trial};
 

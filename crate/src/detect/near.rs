@@ -22,7 +22,8 @@ pub struct Near {
 const MOST: usize = 6;
 
 /// What fits `dump` better than `profile` does, though it differs in one thing: a width, a
-/// command, a mistake of the capture. The best comes first; nothing where the profile fits.
+/// command, a mistake of the capture. The best comes first; nothing where the profile fits. Only
+/// the front of the dump is looked at, so that this takes little time.
 ///
 /// ```
 /// use encoderscope::{detect::near, dump::parse, format::Format};
@@ -33,7 +34,7 @@ const MOST: usize = 6;
 /// ```
 #[must_use]
 pub fn near(profile: &Profile, dump: &Dump) -> Vec<Near> {
-    let sample = Sample::new(dump, dump, dump);
+    let sample = Sample::new(dump, dump, dump).front();
     let own = rank::tried(*profile, &sample);
     let score = own.map_or(0, |own| own.score);
     let beside = |sample: &Sample| {

@@ -259,8 +259,9 @@ fn between(leader: &Candidate, rival: &Candidate) -> String {
     if leader.motion.smooth == 0 {
         return "the shaft stands still: frames of a turning shaft would decide".to_string();
     }
-    format!(
-        "{} fits nearly as well; more frames of a turning shaft would decide",
-        other.title()
-    )
+    let rival = match one.format == other.format {
+        true => "another reading of the same format".to_string(),
+        false => other.title().to_string(),
+    };
+    format!("{rival} fits nearly as well; more frames of a turning shaft would decide")
 }

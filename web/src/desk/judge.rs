@@ -3,16 +3,20 @@
 use super::{Desk, Paper, reading::Turn, source::Recoder};
 use crate::{
     link,
-    message::{CandidateView, FromDesk},
+    message::{CandidateView, FromDesk, NearView},
 };
 use encoderscope::{
     decode::Decoder,
-    detect::{Candidate, Change, Detection},
+    detect::{Candidate, Change, Detection, Near, near},
+    dump::{self, Dump},
+    profile::Profile,
     sheet::Sheet,
 };
 
 /// Bytes of text that are judged.
 const JUDGED: usize = 128 << 10;
+/// Bytes of text in which something is looked for that fits better than the profile.
+const NEARBY: usize = 16 << 10;
 /// Candidates that the page gets.
 const BEST: usize = 6;
 
@@ -33,8 +37,16 @@ impl Judge {
 }
 
 impl Desk {
-    /// Ranks what the input may be; once, since that does not depend on the profile.
+    /// Says what the input may be, and what nearly fits.
     pub(super) async fn judge(&self, job: u32) {
+        self.rank(job).await;
+        if self.wants(job) {
+            self.look_beside(job).await;
+        }
+    }
+
+    /// Ranks what the input may be; once, since that does not depend on the profile.
+    async fn rank(&self, job: u32) {
         if self.state.borrow().judge.found.is_some() {
             return;
         }
@@ -56,6 +68,49 @@ impl Desk {
         self.state.borrow_mut().judge.found = Some(found);
         let done = true;
         self.post(FromDesk::Candidates { found: best, done });
+    }
+
+    /// Says what fits better than the profile, where frames of it fail and little is different.
+    async fn look_beside(&self, job: u32) {
+        let fails = |sheet: &Sheet| {
+            let summary = sheet.figures().summary;
+            summary.bad > 0 || summary.skipped > 0
+        };
+        let profile = {
+            let state = self.state.borrow();
+            let failed = state.sheet.as_ref().is_some_and(fails);
+            state
+                .profile
+                .filter(|_| failed && state.judge.change.is_none())
+        };
+        let mut found = Vec::new();
+        if let Some(profile) = profile
+            && let Some(dump) = self.front(&profile).await
+        {
+            found = near(&profile, &dump).iter().map(near_view).collect();
+        }
+        if self.wants(job) {
+            self.post(FromDesk::Near(found));
+        }
+    }
+
+    /// The front of what is decoded.
+    async fn front(&self, profile: &Profile) -> Option<Dump> {
+        let (source, origin) = {
+            let state = self.state.borrow();
+            if let (Paper::Whole(dump), true) =
+                (&state.paper, state.binary || state.captured.is_some())
+            {
+                return Some(dump.clone());
+            }
+            (state.source.clone()?, state.origin)
+        };
+        let bytes = source.read(origin as f64, NEARBY).await.ok()?;
+        let bytes = Recoder::new(&bytes).recode(bytes);
+        Some(dump::parse(
+            &String::from_utf8_lossy(&bytes),
+            profile.medium(),
+        ))
     }
 
     /// A detection on the text, or on what was read where that was no text.
@@ -111,5 +166,13 @@ fn view(candidate: &Candidate) -> CandidateView {
         verdict: candidate.verdict.name().into(),
         evidence: candidate.evidence.clone(),
         change: candidate.change.map(Change::code),
+    }
+}
+
+fn near_view(near: &Near) -> NearView {
+    NearView {
+        text: near.text.clone(),
+        profile: link::query(&near.profile),
+        change: near.change.map(Change::code),
     }
 }

@@ -147,6 +147,8 @@ pub enum FromDesk {
         /// Whether there is more to try.
         done: bool,
     },
+    /// What fits better than the profile that is decoded with, though little is different.
+    Near(Vec<NearView>),
     /// A row in bits and fields.
     Explained(Box<Explained>),
     /// A row was looked for: its place among those shown, and itself.
@@ -351,6 +353,17 @@ pub struct CandidateView {
     pub verdict: String,
     /// Why, in sentences.
     pub evidence: Vec<String>,
+    /// The mistake of the capture that must be undone first, as a link has it.
+    pub change: Option<String>,
+}
+
+/// Something that fits better than the profile that is decoded with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NearView {
+    /// What is different, and why it fits, in a sentence.
+    pub text: String,
+    /// The profile that fits, as the parameters of a link.
+    pub profile: String,
     /// The mistake of the capture that must be undone first, as a link has it.
     pub change: Option<String>,
 }

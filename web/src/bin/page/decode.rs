@@ -15,7 +15,7 @@ use crate::{
     frame_view::FrameView,
     profile_editor::{Offer, ProfileEditor},
 };
-use candidates::Candidates;
+use candidates::{Candidates, Nearby};
 use chart::AngleChart;
 use encoderscope::{explain::grouped, format::Format};
 use encoderscope_web::message::ToDesk;
@@ -75,6 +75,7 @@ pub(crate) fn Decode() -> impl IntoView {
                 <div on:change=move |_| desk.choice.set(Choice::User)>
                     <ProfileEditor offer=Offer::All />
                 </div>
+                <Nearby />
                 {move || own.get().then(|| view! { <OwnEditor /> })}
                 <Share />
             </section>

@@ -9,8 +9,8 @@ use encoderscope::profile::Profile;
 use encoderscope_web::{
     link::{self as links, query},
     message::{
-        CandidateView, Explained, FileKind, FromDesk, Marked, Overview, RowView, Selection, ToDesk,
-        TraceView,
+        CandidateView, Explained, FileKind, FromDesk, Marked, NearView, Overview, RowView,
+        Selection, ToDesk, TraceView,
     },
 };
 use js_sys::Array;
@@ -56,6 +56,8 @@ pub(crate) struct Desk {
     /// Rows, and the place of the first one.
     pub(crate) rows: RwSignal<(usize, Vec<RowView>)>,
     pub(crate) candidates: RwSignal<Vec<CandidateView>>,
+    /// What fits better than the profile, though little is different.
+    pub(crate) near: RwSignal<Vec<NearView>>,
     /// Whether it is still being found out what the input may be.
     pub(crate) judging: RwSignal<bool>,
     /// The mistake of the capture that is undone, as a link has it.
@@ -100,6 +102,7 @@ impl Desk {
             overview: RwSignal::new(Overview::default()),
             rows: RwSignal::new((0, Vec::new())),
             candidates: RwSignal::new(Vec::new()),
+            near: RwSignal::new(Vec::new()),
             judging: RwSignal::new(false),
             changed: RwSignal::new(None),
             explained: RwSignal::new(None),
@@ -281,6 +284,7 @@ impl Desk {
                 self.judging.set(!done);
                 self.candidates.set(found);
             }
+            FromDesk::Near(near) => self.near.set(near),
             FromDesk::Explained(explained) => self.explained.set(Some(*explained)),
             FromDesk::Found(found) => {
                 self.lost.set(found.is_none());
@@ -348,6 +352,7 @@ impl Desk {
         self.refusal.set(None);
         self.marks.set(Vec::new());
         self.candidates.set(Vec::new());
+        self.near.set(Vec::new());
         self.changed.set(None);
         self.judging.set(true);
         self.payload.set(None);
@@ -366,6 +371,7 @@ impl Desk {
         }
         self.profile.set_value(Some(profile));
         self.explained.set(None);
+        self.near.set(Vec::new());
         if self.worker.with_value(Option::is_some) {
             self.send(ToDesk::Profile(query(&profile)));
         }
@@ -377,6 +383,7 @@ impl Desk {
         self.profile.set_value(Some(profile));
         self.changed.set(change.clone());
         self.explained.set(None);
+        self.near.set(Vec::new());
         self.send(ToDesk::Change {
             change: change.unwrap_or_default(),
             profile: query(&profile),

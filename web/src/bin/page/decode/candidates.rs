@@ -2,7 +2,10 @@
 
 use crate::{app::App, desk::Choice};
 use encoderscope::{format::Format, profile::Profile};
-use encoderscope_web::{link, message::CandidateView};
+use encoderscope_web::{
+    link,
+    message::{CandidateView, NearView},
+};
 use leptos::prelude::*;
 
 /// Candidates that are shown at first.
@@ -31,6 +34,48 @@ pub(super) fn describe(profile: &Profile) -> String {
     text
 }
 
+/// Reads the input with a profile, a mistake of its capture undone where there is one.
+fn read_as(app: App, change: Option<&String>, profile: Profile) {
+    let desk = app.desk;
+    desk.choice.set(Choice::User);
+    if desk
+        .changed
+        .with_untracked(|changed| changed.as_ref() != change)
+    {
+        desk.change(change.cloned(), profile);
+    }
+    app.change_profile(profile);
+}
+
+/// What fits better than the chosen profile, though little is different.
+#[component]
+pub(super) fn Nearby() -> impl IntoView {
+    let app = expect_context::<App>();
+    let row = move |near: NearView| {
+        let profile = link::profile(&near.profile).ok()?;
+        let change = near.change;
+        let choose = move |_| read_as(app, change.as_ref(), profile);
+        Some(view! {
+            <li data-testid="near" data-value=near.profile>
+                {near.text}
+                " "
+                <button class="quiet" on:click=choose>"Read it so"</button>
+            </li>
+        })
+    };
+    move || {
+        let near = app.desk.near.get();
+        (!near.is_empty() && !app.desk.is_empty()).then(|| {
+            view! {
+                <div class="nearby" role="status">
+                    <p>"These frames fit better:"</p>
+                    <ul>{near.into_iter().filter_map(row).collect_view()}</ul>
+                </div>
+            }
+        })
+    }
+}
+
 #[component]
 pub(super) fn Candidates() -> impl IntoView {
     let app = expect_context::<App>();
@@ -41,13 +86,7 @@ pub(super) fn Candidates() -> impl IntoView {
         let value = format!("{}&verdict={}", candidate.profile, candidate.verdict);
         let change = candidate.change.clone();
         let mine = change.clone();
-        let choose = move |_| {
-            desk.choice.set(Choice::User);
-            if desk.changed.get_untracked() != change {
-                desk.change(change.clone(), profile);
-            }
-            app.change_profile(profile);
-        };
+        let choose = move |_| read_as(app, change.as_ref(), profile);
         Some(view! {
             <button
                 class="candidate"
