@@ -314,6 +314,20 @@ test('a mistake of the capture is named and undone', async ({ page, context }) =
   await expect(again.locator('[data-testid=dump-row][data-ok=true]')).toHaveCount(8);
 });
 
+test('what nearly fits the chosen profile is said, and read so at a click', async ({ page }) => {
+  await page.goto('/#/decode?format=t485&angle-bits=23');
+  await paste(page, '1a 20 29 c0 01 11 00 00 00 c8 0b\n1a 20 83 c1 00 11 00 00 00 c8 a1\n1a 20 83 c1 00 11');
+  await judged(page);
+  const near = at(page, 'near').first();
+  await expect(near).toContainText('with angle-bits 17');
+  await near.getByRole('button').click();
+  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-angle', String(0x1c029));
+  expect(page.url()).toContain('angle-bits=17');
+  // A profile that fits needs no such word, though the last frame is cut short.
+  await judged(page);
+  await expect(at(page, 'near')).toHaveCount(0);
+});
+
 test('a recording of SSI alone is not taken for BiSS', async ({ page }) => {
   await page.goto('/#/decode');
   await upload(page, 'firtree.csv', file('captures/firtree.saleae.csv'));
@@ -421,7 +435,20 @@ test('100 MB open with progress, the page stays awake, and reading can be stoppe
   expect(times.rows).toBeLessThan(1_000);
   expect(times.long.filter((duration) => duration > 80)).toEqual([]);
 
-  // Scrolling through millions of rows, with the wheel and with the bar.
+  // Scrolling through millions of rows, with the wheel and with the bar: there are always some.
+  const empty = await page.evaluate(async () => {
+    const table = document.querySelector('[data-testid=rows]');
+    let blank = 0;
+    for (let frame = 0; frame < 60; frame += 1) {
+      table.scrollTop += 400;
+      await new Promise(requestAnimationFrame);
+      blank += document.querySelector('[data-testid=dump-row]') ? 0 : 1;
+    }
+    table.scrollTop = 0;
+    return blank;
+  });
+  expect(empty).toBe(0);
+  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-row', '0');
   const table = at(page, 'rows');
   await table.hover();
   await page.mouse.wheel(0, 300);

@@ -34,10 +34,15 @@ pub(super) fn AngleChart() -> impl IntoView {
         });
     // Kept until the chart is gone, or it would call what is no more.
     let tell = StoredValue::new_local(Some(tell));
+    // Not before there is something to draw: opening a file is work enough for one task.
+    let traced = Memo::new(move |_| desk.trace.with(|trace| !trace.rows.is_empty()));
     Effect::new(move || {
-        let Some(element) = place.get() else {
+        let (Some(element), true) = (place.get(), traced.get()) else {
             return;
         };
+        if chart.with_untracked(Option::is_some) {
+            return;
+        }
         let made = tell.with_value(|tell| {
             let tell = tell.as_ref()?;
             Some(charts.with_value(|charts| {

@@ -173,7 +173,11 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
     };
     let visible = move || {
         let (first, rows) = desk.rows.get();
-        let top = top.get();
+        let mut top = top.get();
+        // While the bar runs, the rows that came last are shown: they are a moment old.
+        if !rows.is_empty() && (top >= first + rows.len() || top + SIGHT < first) {
+            top = first + rows.len().saturating_sub(SIGHT) / 2;
+        }
         let places = top..(top + SIGHT + 1).min(scroll.total.get());
         let row = |place: usize| {
             let at = place.checked_sub(first)?;
