@@ -5,8 +5,10 @@
 //! bytes: [`crate::format::own`] refuses any other.
 
 mod algorithm;
+mod walk;
 
 pub use algorithm::Algorithm;
+pub use walk::{Step, Walk};
 
 use crate::bits::{self, Bits, Span};
 use alloc::{

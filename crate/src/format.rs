@@ -237,6 +237,14 @@ layout! {
     }
 }
 
+layout! {
+    /// A request of one byte.
+    pub static REQUEST_BYTE(p) {
+        /// What the host asks for.
+        command: Operation[8];
+    }
+}
+
 /// Whether the encoder's LED blinks, once a second, while a status bit of this name is set: those
 /// of the battery (MPP and PT, "LED").
 ///

@@ -17,6 +17,7 @@ mod resolved;
 pub use resolved::{Coding, Covered, Field, Part, Resolved, Shape};
 
 use crate::{bits, check::Checksum};
+use alloc::{string::String, vec::Vec};
 
 /// What a field means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -334,6 +335,15 @@ pub struct Layout {
     pub doc: &'static [&'static str],
     /// The rows in transmission order.
     pub pieces: &'static [Piece],
+}
+
+impl Layout {
+    /// What the frame is, in a line.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let lines: Vec<&str> = self.doc.iter().map(|line| line.trim()).collect();
+        lines.join(" ").trim_end_matches('.').into()
+    }
 }
 
 /// Writes a [`Layout`] table; see the module's documentation and the files of `format`.

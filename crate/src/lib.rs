@@ -7,11 +7,11 @@
 //! - [`framing`]: bytes, cut anyhow, into frames and skips;
 //! - [`decode`]: a [`decode::Frame`] is bits and the layout that reads them;
 //! - [`reading`]: what the shaft does, from good frames only;
-//! - [`explain`]: what the bits say, from any frame;
+//! - [`explain`]: what the bits say, from any frame; [`sketch`]: a frame that is changed bit by bit;
 //! - [`detect`]: what a dump may be, ranked by evidence; [`sheet`]: a decoded dump as a table;
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
 //!   [`finder`]: which encoder is on the line; [`doctor`]: how the link is; [`emulator`]: the
-//!   encoder's side of it all;
+//!   encoder's side of it all; [`conversation`]: what both say while something is changed;
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`crc_search`]: the checksum of frames of an unknown format;
 //! - [`export`]: decoders as source, frames as tables;
@@ -33,6 +33,7 @@ pub mod adapter;
 pub mod bits;
 pub mod capture;
 pub mod check;
+pub mod conversation;
 pub mod crc_search;
 pub mod decode;
 pub mod detect;
@@ -54,4 +55,5 @@ pub mod record;
 pub mod sequence;
 pub mod session;
 pub mod sheet;
+pub mod sketch;
 pub mod standstill;

@@ -148,30 +148,49 @@ impl Algorithm {
     /// ```
     #[must_use]
     pub fn compute(&self, bits: Bits<'_>, over: Span) -> u64 {
-        let all = bits::mask(self.width as usize);
-        let mut register = self.init & all;
-        let mut at = over.start;
-        while at < over.end() {
-            let take = (over.end() - at).min(8);
-            let part = bits.read(Span::new(at, take));
-            let part = match self.refin {
-                true => bits::reversed(part, take as u32),
-                false => part,
-            };
-            for place in (0..take as u32).rev() {
-                let top = bits::bit(register, self.width.saturating_sub(1));
-                register = bits::placed(register, 1) & all;
-                if top != bits::bit(part, place) {
-                    register ^= self.polynomial;
-                }
-            }
-            at += take;
+        let mut register = self.start();
+        self.order(over, |at| register = self.shifted(register, bits.bit(at)));
+        self.result(register)
+    }
+
+    /// The register before the first bit.
+    pub(super) const fn start(&self) -> u64 {
+        self.init & bits::mask(self.width as usize)
+    }
+
+    /// The register after one more bit.
+    pub(super) const fn shifted(&self, register: u64, bit: bool) -> u64 {
+        let moved = bits::placed(register, 1) & bits::mask(self.width as usize);
+        match self.subtracts(register, bit) {
+            true => moved ^ self.polynomial,
+            false => moved,
         }
+    }
+
+    /// Whether the bit that the register shifts out and the one that comes in differ, so that the
+    /// polynomial is subtracted.
+    pub(super) const fn subtracts(&self, register: u64, bit: bool) -> bool {
+        bits::bit(register, self.width.saturating_sub(1)) != bit
+    }
+
+    /// Tells the places of a run in the order in which they go in.
+    pub(super) fn order(&self, over: Span, mut take: impl FnMut(usize)) {
+        for from in (over.start..over.end()).step_by(8) {
+            let to = over.end().min(from + 8);
+            match self.refin {
+                true => (from..to).rev().for_each(&mut take),
+                false => (from..to).for_each(&mut take),
+            }
+        }
+    }
+
+    /// What the register comes to at the end.
+    pub(super) const fn result(&self, register: u64) -> u64 {
         let out = match self.refout {
             true => bits::reversed(register, self.width),
             false => register,
         };
-        (out ^ self.xorout) & all
+        (out ^ self.xorout) & bits::mask(self.width as usize)
     }
 }
 

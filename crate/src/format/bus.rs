@@ -72,6 +72,16 @@ impl Operation {
     /// All operations, in the order of their codes; code 11 gets no answer.
     pub const ALL: &[Self] = &[Self::Get, Self::SetZero, Self::SetAddress];
 
+    /// Its name, in kebab-case.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Get => "get",
+            Self::SetZero => "set-zero",
+            Self::SetAddress => "set-address",
+        }
+    }
+
     /// The code in the request.
     #[must_use]
     pub const fn code(self) -> u8 {

@@ -87,6 +87,22 @@ impl Request {
         Self::MemoryRead,
     ];
 
+    /// Its name, in kebab-case.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Angle => "angle",
+            Self::Turns => "turns",
+            Self::Identity => "identity",
+            Self::All => "all",
+            Self::MemoryWrite => "memory-write",
+            Self::ResetErrors => "reset-errors",
+            Self::ResetAngle => "reset-angle",
+            Self::ResetTurns => "reset-turns",
+            Self::MemoryRead => "memory-read",
+        }
+    }
+
     /// The control byte on the wire.
     #[must_use]
     pub const fn byte(self) -> u8 {

@@ -3,7 +3,7 @@
 use super::{Check, Cover, Layout, Piece, Role, Row, Weight, fast::Fast};
 use crate::{
     bits::{self, BitString, Bits, Span},
-    check::Checksum,
+    check::{Checksum, Walk},
     format::Format,
     profile::Profile,
 };
@@ -260,15 +260,32 @@ impl Resolved {
     /// The value that a check field must hold; `None` for other fields.
     #[must_use]
     pub fn expected(&self, field: &Field, bits: Bits<'_>) -> Option<u64> {
+        self.over(field, bits, Checksum::compute)
+    }
+
+    /// How the value that a check field must hold comes about, bit by bit; `None` for other
+    /// fields. Where a check covers the whole frame, its own bits go in as 0.
+    #[must_use]
+    pub fn walk(&self, field: &Field, bits: Bits<'_>) -> Option<Walk> {
+        self.over(field, bits, Checksum::walk)
+    }
+
+    /// Computes with what a check field covers.
+    fn over<T>(
+        &self,
+        field: &Field,
+        bits: Bits<'_>,
+        compute: fn(Checksum, Bits<'_>, Span) -> T,
+    ) -> Option<T> {
         let (sum, covered) = field.cover?;
         Some(match covered {
-            Covered::Run(span) => sum.compute(bits, span),
+            Covered::Run(span) => compute(sum, bits, span),
             Covered::Frame => {
                 let mut cleared = BitString::of_bytes(bits.bytes().into());
                 for part in self.parts(field) {
                     cleared.write(part.span, 0);
                 }
-                sum.compute(cleared.as_bits(), Span::new(0, self.len))
+                compute(sum, cleared.as_bits(), Span::new(0, self.len))
             }
         })
     }

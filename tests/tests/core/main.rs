@@ -31,6 +31,7 @@ mod rivals;
 mod sequences;
 mod sessions;
 mod sheets;
+mod sketches;
 mod standstill;
 mod streams;
 mod tables;

@@ -1,0 +1,239 @@
+//! A frame on paper: changed bit by bit, and what the other side makes of it.
+//!
+//! ```
+//! use encoderscope::{decode::Decoder, profile::Profile, sketch::{Checks, Heard, Sketch}};
+//! let decoder = Decoder::new(Profile::parse([("format", "t485")])?)?;
+//! let reply = decoder.frame_kinds().into_iter().find(|kind| kind.name == "angle").unwrap();
+//! let mut sketch = Sketch::new(decoder, reply);
+//! sketch.enter("angle", "180°", Checks::Follow)?;
+//! assert!(matches!(sketch.heard(), Heard::Reading(reading) if reading.degrees() == 180.0));
+//! sketch.flip(20, Checks::Stay);
+//! assert!(matches!(sketch.heard(), Heard::Faults(faults) if faults.len() == 1));
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+
+mod entry;
+mod kind;
+
+pub use entry::Refusal;
+pub use kind::FrameKind;
+
+use crate::{
+    bits::{BitString, Bits, Span},
+    decode::{Decoded, Decoder},
+    dump::{Direction, Dump},
+    emulator::{Emulator, Shaft},
+    explain::Note,
+    format::Medium,
+    framing::Why,
+    layout::{Field, Role},
+    reading::{Fault, Reading},
+    session::Micros,
+};
+use alloc::vec::Vec;
+
+/// How long an encoder is listened to, in microseconds: longer than any reply takes.
+const LISTEN: Micros = 100_000;
+
+/// What checks do when something else is changed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Checks {
+    /// They are computed again.
+    #[default]
+    Follow,
+    /// They stay as they are, and fail.
+    Stay,
+}
+
+/// What the other side makes of a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Heard {
+    /// A good frame with a position.
+    Reading(Reading),
+    /// A good frame without one.
+    Good,
+    /// A frame that is refused.
+    Faults(Vec<Fault>),
+    /// Nothing that is taken for a frame.
+    NoFrame(Why),
+    /// A request that is answered so.
+    Answer(Vec<u8>),
+    /// A request that no encoder of the profile answers.
+    Silence,
+}
+
+/// A frame that can be changed.
+#[derive(Clone, Debug)]
+pub struct Sketch {
+    decoder: Decoder,
+    kind: FrameKind,
+    bits: BitString,
+}
+
+impl Sketch {
+    /// The example of a kind of frame.
+    #[must_use]
+    pub fn new(decoder: Decoder, kind: FrameKind) -> Self {
+        Self {
+            decoder,
+            bits: kind.example.clone(),
+            kind,
+        }
+    }
+
+    /// A frame that is given, of the kind that it looks like most, going one way where that is
+    /// known: a T485 EEPROM write is answered with the same bytes.
+    ///
+    /// # Errors
+    ///
+    /// It has the length of no frame of the profile.
+    pub fn read(
+        decoder: Decoder,
+        bits: BitString,
+        direction: Option<Direction>,
+    ) -> Result<Self, Why> {
+        let kind = FrameKind::of(&decoder, bits.as_bits(), direction)?;
+        Ok(Self {
+            decoder,
+            kind,
+            bits,
+        })
+    }
+
+    /// Which frame it is.
+    #[must_use]
+    pub const fn kind(&self) -> &FrameKind {
+        &self.kind
+    }
+
+    /// The profile's decoder.
+    #[must_use]
+    pub const fn decoder(&self) -> &Decoder {
+        &self.decoder
+    }
+
+    /// The bits, in transmission order as they are read.
+    #[must_use]
+    pub fn bits(&self) -> Bits<'_> {
+        self.bits.as_bits()
+    }
+
+    /// What every field says.
+    #[must_use]
+    pub fn notes(&self) -> Vec<Note> {
+        self.kind.layout.explain(self.bits())
+    }
+
+    /// The field of a name.
+    #[must_use]
+    pub fn field(&self, name: &str) -> Option<&Field> {
+        let mut fields = self.kind.layout.fields();
+        fields.find(|field| field.row.name == name)
+    }
+
+    /// Turns a bit over. A bit of a check stays as it is then: that is a check broken on purpose.
+    pub fn flip(&mut self, index: usize, checks: Checks) {
+        if index >= self.bits().len() {
+            return;
+        }
+        self.bits.flip(index);
+        let field = self.kind.layout.field_at(index);
+        if field.is_some_and(|field| field.cover.is_none()) {
+            self.settle(checks);
+        }
+    }
+
+    /// Puts a byte in place of the one at `index`, checks as they are.
+    pub fn set_byte(&mut self, index: usize, byte: u8) {
+        let len = self
+            .bits()
+            .len()
+            .saturating_sub(index.saturating_mul(8))
+            .min(8);
+        if len == 8 {
+            self.bits.write(Span::new(index * 8, 8), byte.into());
+        }
+    }
+
+    /// Puts a value into a field, as a person writes it: a number in decimal or with 0x or 0b, the
+    /// angle also in degrees ("180.5°"), speed in revolutions per second, temperature in degrees
+    /// Celsius.
+    ///
+    /// # Errors
+    ///
+    /// There is no such field, it is no such number, or it does not fit.
+    pub fn enter(&mut self, name: &str, text: &str, checks: Checks) -> Result<(), Refusal> {
+        let field = self.field(name).ok_or(Refusal::NoField)?.clone();
+        let raw = self.kind.layout.entered(&field, text)?;
+        self.kind.layout.write(&field, &mut self.bits, raw);
+        if field.cover.is_none() {
+            self.settle(checks);
+        }
+        Ok(())
+    }
+
+    fn settle(&mut self, checks: Checks) {
+        if checks == Checks::Follow {
+            self.mend();
+        }
+    }
+
+    /// Computes all checks again.
+    pub fn mend(&mut self) {
+        for role in [Role::Parity, Role::Crc] {
+            self.kind.layout.seal(&mut self.bits, role);
+        }
+    }
+
+    /// What the other side makes of it: a master of a reply, an encoder of a request.
+    #[must_use]
+    pub fn heard(&self) -> Heard {
+        match (self.kind.direction, self.decoder.profile().medium()) {
+            (Direction::Sent, _) => self.answered(),
+            (Direction::Received, Medium::Bits) => match self.decoder.line(self.bits()) {
+                Ok(frame) => judged(frame.faults(), frame.reading()),
+                Err(why) => Heard::NoFrame(why),
+            },
+            (Direction::Received, Medium::Bytes | Medium::Text) => self.framed(),
+        }
+    }
+
+    fn answered(&self) -> Heard {
+        let shaft = Shaft::still(kind::EXAMPLE_TURNS as f64 + kind::EXAMPLE_DEGREES / 360.0);
+        let Ok(mut encoder) = Emulator::new(*self.decoder.profile(), shaft) else {
+            return Heard::Silence;
+        };
+        encoder.handle_input(0, self.bits().bytes());
+        let mut answer = Vec::new();
+        while let Some(bytes) = encoder.poll_output(LISTEN) {
+            answer.extend(bytes);
+        }
+        match answer.is_empty() {
+            true => Heard::Silence,
+            false => Heard::Answer(answer),
+        }
+    }
+
+    fn framed(&self) -> Heard {
+        let bytes = self.bits().bytes();
+        // Who has asked knows where the reply begins and how long it is.
+        if let Some(frame) = self.decoder.frame(bytes) {
+            return judged(frame.faults(), frame.reading());
+        }
+        let mut why = Why::NoFrame;
+        self.decoder.dump(&Dump::of_bytes(bytes), &mut |decoded| {
+            if let Decoded::Skip { why: said, .. } = decoded {
+                why = said;
+            }
+        });
+        Heard::NoFrame(why)
+    }
+}
+
+fn judged(faults: Vec<Fault>, reading: Option<Reading>) -> Heard {
+    match (faults.is_empty(), reading) {
+        (false, _) => Heard::Faults(faults),
+        (true, Some(reading)) => Heard::Reading(reading),
+        (true, None) => Heard::Good,
+    }
+}
