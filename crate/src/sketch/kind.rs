@@ -111,17 +111,18 @@ impl FrameKind {
             have: bits.len(),
             need,
         };
-        match decoder.profile().is_serial() {
-            true => Err(if bits.len() < need {
-                truncated
-            } else {
-                Why::NoFrame
-            }),
-            false => Ok(Self {
-                layout: decoder.line(bits)?.layout.into_owned(),
-                ..main
-            }),
-        }
+        let layout = match decoder.profile().medium() {
+            Medium::Bits => decoder.line(bits)?.layout,
+            Medium::Bytes | Medium::Text => match decoder.frame(bits.bytes()) {
+                Some(frame) => frame.layout,
+                None if bits.len() < need => return Err(truncated),
+                None => return Err(Why::NoFrame),
+            },
+        };
+        Ok(Self {
+            layout: layout.into_owned(),
+            ..main
+        })
     }
 }
 
