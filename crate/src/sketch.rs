@@ -21,16 +21,17 @@ pub use kind::FrameKind;
 use crate::{
     bits::{BitString, Bits, Span},
     decode::{Decoded, Decoder},
-    dump::{Direction, Dump},
+    dump::{self, Direction, Dump},
     emulator::{Emulator, Shaft},
     explain::Note,
     format::Medium,
     framing::Why,
     layout::{Field, Role},
     reading::{Fault, Reading},
+    record,
     session::Micros,
 };
-use alloc::vec::Vec;
+use alloc::{string::String, vec::Vec};
 
 /// How long an encoder is listened to, in microseconds: longer than any reply takes.
 const LISTEN: Micros = 100_000;
@@ -98,6 +99,38 @@ impl Sketch {
             kind,
             bits,
         })
+    }
+
+    /// A frame as it is pasted or stands in a link: the first line of a clocked format, else all
+    /// bytes.
+    ///
+    /// # Errors
+    ///
+    /// It has the length of no frame of the profile.
+    pub fn parse(decoder: Decoder, text: &str, direction: Option<Direction>) -> Result<Self, Why> {
+        let medium = decoder.profile().medium();
+        let dump = dump::parse(text, medium);
+        let mut bits = BitString::default();
+        match dump.line(0) {
+            Some(line) if medium == Medium::Bits => {
+                (0..line.bits.len()).for_each(|at| bits.push(line.bits.bit(at)));
+            }
+            _ => bits = BitString::of_bytes(dump.bytes().into()),
+        }
+        Self::read(decoder, bits, direction)
+    }
+
+    /// The frame as a link writes it: of a clocked format 0 and 1, of ASI4 its characters, else
+    /// hexadecimal digits. [`Self::parse`] reads it again.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let bits = self.bits();
+        match self.decoder.profile().medium() {
+            Medium::Bits => (0..bits.len())
+                .map(|at| if bits.bit(at) { '1' } else { '0' })
+                .collect(),
+            Medium::Bytes | Medium::Text => record::hex(bits.bytes()),
+        }
     }
 
     /// Which frame it is.
@@ -170,6 +203,14 @@ impl Sketch {
             self.settle(checks);
         }
         Ok(())
+    }
+
+    /// The value of a field as [`Self::enter`] takes it; of the angle its counts.
+    #[must_use]
+    pub fn entry(&self, name: &str) -> Option<String> {
+        let field = self.field(name)?;
+        let raw = self.kind.layout.read(field, self.bits());
+        Some(self.kind.layout.entry(field, raw))
     }
 
     fn settle(&mut self, checks: Checks) {

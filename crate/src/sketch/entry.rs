@@ -2,9 +2,11 @@
 
 use crate::{
     bits,
+    explain::tenths,
     layout::{Field, Resolved, Role},
     profile::TurnsCode,
 };
+use alloc::string::{String, ToString};
 use core::fmt;
 
 /// Why a value is not put into a field.
@@ -51,6 +53,17 @@ impl fmt::Display for Refusal {
 impl core::error::Error for Refusal {}
 
 impl Resolved {
+    /// The value of a field, as [`super::Sketch::enter`] takes it.
+    pub(super) fn entry(&self, field: &Field, raw: u64) -> String {
+        match field.row.role {
+            Role::Turns => self.turns(raw).to_string(),
+            Role::Speed | Role::Temperature => {
+                tenths(bits::signed(raw, field.width as usize) as i32)
+            }
+            _ => raw.to_string(),
+        }
+    }
+
     /// The number of a field that a text says.
     pub(super) fn entered(&self, field: &Field, text: &str) -> Result<u64, Refusal> {
         let text = text.trim();
@@ -66,7 +79,7 @@ impl Resolved {
             -i128::from(bits::mask(width.saturating_sub(1))) - 1,
             i128::from(bits::mask(width.saturating_sub(1))),
         );
-        let tenths = matches!(role, Role::Speed | Role::Temperature);
+        let in_tenths = matches!(role, Role::Speed | Role::Temperature);
         let (least, most) = match role {
             Role::Speed | Role::Temperature => signed,
             Role::Turns if self.shape.profile.turns_code == TurnsCode::Signed => signed,
@@ -76,7 +89,7 @@ impl Resolved {
             ),
             _ => unsigned,
         };
-        let number = match tenths {
+        let number = match in_tenths {
             true => rounded(decimal(text)? * 10.0),
             false => whole(text)?,
         };
@@ -85,7 +98,7 @@ impl Resolved {
             false => Err(Refusal::Range {
                 least,
                 most,
-                tenths,
+                tenths: in_tenths,
             }),
         }
     }
@@ -131,7 +144,7 @@ fn whole(text: &str) -> Result<i128, Refusal> {
 }
 
 /// Without the spaces that group digits.
-fn plain(text: &str) -> alloc::string::String {
+fn plain(text: &str) -> String {
     let letters = text.chars().filter(|letter| !letter.is_whitespace());
     letters
         .map(|letter| if letter == '−' { '-' } else { letter })

@@ -59,6 +59,25 @@ fn examples_are_good_and_known_again() {
         )
         .unwrap();
         assert_eq!(again.kind().name, name, "{title}");
+        let text = sketch.text();
+        let direction = Some(sketch.kind().direction);
+        let written = Sketch::parse(decoder.clone(), &text, direction).unwrap();
+        assert_eq!(
+            (written.bits(), written.text()),
+            (sketch.bits(), text),
+            "{name}"
+        );
+        for field in sketch.kind().layout.fields() {
+            let mut again = sketch.clone();
+            let entry = sketch.entry(field.row.name).unwrap();
+            again.enter(field.row.name, &entry, Checks::Stay).unwrap();
+            assert_eq!(
+                again.bits(),
+                sketch.bits(),
+                "{name}, {}: {entry}",
+                field.row.name
+            );
+        }
         match (sketch.kind().direction, sketch.heard()) {
             (Direction::Sent, Heard::Answer(answer)) => {
                 let reply = Sketch::read(decoder, BitString::of_bytes(answer), None).unwrap();
