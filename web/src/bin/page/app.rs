@@ -1,8 +1,15 @@
 //! The shell: areas, profile, theme, and the state that they share.
 
 use crate::{
-    Workers, adapters, connection::Connection, console::Console, decode::Decode, desk::Desk,
-    plot::Feed, ports::Obstacle, theme::ThemeSwitch,
+    Workers, adapters,
+    connection::Connection,
+    console::Console,
+    decode::Decode,
+    desk::Desk,
+    explain::{Explain, Paper},
+    plot::Feed,
+    ports::Obstacle,
+    theme::ThemeSwitch,
 };
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
@@ -28,15 +35,17 @@ pub(crate) enum Source {
 pub(crate) enum Area {
     Console,
     Decode,
+    Explain,
 }
 
 impl Area {
-    const ALL: [Self; 2] = [Self::Console, Self::Decode];
+    const ALL: [Self; 3] = [Self::Console, Self::Decode, Self::Explain];
 
     const fn name(self) -> &'static str {
         match self {
             Self::Console => "console",
             Self::Decode => "decode",
+            Self::Explain => "explain",
         }
     }
 
@@ -44,6 +53,7 @@ impl Area {
         match self {
             Self::Console => "Console",
             Self::Decode => "Decode",
+            Self::Explain => "Explain",
         }
     }
 }
@@ -71,6 +81,8 @@ pub(crate) struct App {
     pub(crate) obstacle: RwSignal<Option<Obstacle>>,
     /// The decode area's end of its worker.
     pub(crate) desk: Desk,
+    /// The frame of the explainer.
+    pub(crate) paper: Paper,
     /// The worker has broken down, and an engine on the page has taken over.
     broken: RwSignal<bool>,
     /// A port was plugged in a moment ago.
@@ -98,6 +110,7 @@ impl App {
             any_rate: RwSignal::new(false),
             obstacle: RwSignal::new(None),
             desk: Desk::new(workers),
+            paper: Paper::new(),
             broken,
             just_plugged: RwSignal::new(false),
             connection: StoredValue::new_local(connection),
@@ -200,15 +213,23 @@ impl App {
                 .set(Some(format!("The link is not right: {error}."))),
             None => {}
         }
-        self.desk.follow_link(&fragment);
+        match area {
+            Area::Explain => {
+                let profile = self.profile.get_untracked();
+                self.paper.follow_link(&fragment, profile);
+            }
+            Area::Console | Area::Decode => self.desk.follow_link(&fragment),
+        }
     }
 
     /// The fragment that leads back here.
     pub(crate) fn fragment(&self) -> String {
         let area = self.area.get();
         let mut text = format!("#/{}?{}", area.name(), query(&self.profile.get()));
-        if area == Area::Decode {
-            text += &self.desk.fragment();
+        match area {
+            Area::Console => {}
+            Area::Decode => text += &self.desk.fragment(),
+            Area::Explain => text += &self.paper.fragment(),
         }
         text
     }
@@ -298,6 +319,7 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
             {move || match app.area.get() {
                 Area::Console => view! { <Console /> }.into_any(),
                 Area::Decode => view! { <Decode /> }.into_any(),
+                Area::Explain => view! { <Explain /> }.into_any(),
             }}
         </main>
     }

@@ -16,6 +16,7 @@ mod devices;
 mod dial;
 mod doctor;
 mod eeprom;
+mod explain;
 mod finder;
 mod frame_view;
 mod link_panel;

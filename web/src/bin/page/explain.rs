@@ -1,0 +1,193 @@
+//! The explainer: a frame as bits and fields that can be changed, and everything that follows.
+
+mod bits;
+mod fields;
+mod paper;
+mod talk;
+mod verdict;
+mod walk;
+
+pub(crate) use paper::Paper;
+
+use crate::{
+    app::App,
+    profile_editor::{Offer, ProfileEditor},
+};
+use bits::BitRow;
+use encoderscope::sketch::{self, Sketch};
+use fields::Fields;
+use leptos::prelude::*;
+use talk::Talk;
+use verdict::Verdict;
+use walk::Checks;
+
+#[component]
+pub(crate) fn Explain() -> impl IntoView {
+    let app = expect_context::<App>();
+    let paper = app.paper;
+    Effect::new(move || paper.follow_profile(app.profile.get()));
+    view! {
+        <div class="explain">
+            <section class="panel frame">
+                <Heading />
+                <BitRow />
+                <Tools />
+            </section>
+            <div class="sides">
+                <div class="side">
+                    <Fields />
+                    <Talk />
+                </div>
+                <div class="side">
+                    <Verdict />
+                    <Checks />
+                    <Errata />
+                    <section class="panel">
+                        <h2>"Which frame"</h2>
+                        <ProfileEditor offer=Offer::All />
+                    </section>
+                </div>
+            </div>
+        </div>
+    }
+}
+
+/// What the frame is, and which others there are.
+#[component]
+fn Heading() -> impl IntoView {
+    let app = expect_context::<App>();
+    let paper = app.paper;
+    let title = move || {
+        let (title, count, bytes) = paper
+            .plan
+            .with(|plan| (plan.title.clone(), plan.cells.len(), plan.bytes));
+        let order = match bytes {
+            true => format!("{} bytes", count / 8),
+            false => format!("{count} bits, first on the wire on the left"),
+        };
+        view! { {title} <span>{order}</span> }
+    };
+    let kinds = Memo::new(move |_| {
+        let _ = paper.plan.get();
+        let kinds = paper.with(|sketch| sketch.decoder().frame_kinds());
+        let names = kinds.unwrap_or_default().into_iter();
+        names
+            .map(|kind| (kind.name, kind.title))
+            .collect::<Vec<_>>()
+    });
+    let chosen = move || paper.plan.with(|plan| plan.kind().to_owned());
+    let choose = move |name: String| paper.choose(app.profile.get_untracked(), &name);
+    view! {
+        <div class="heading">
+            <h2>{title}</h2>
+            {move || {
+                let kinds = kinds.get();
+                (kinds.len() > 1).then(|| view! {
+                    <label>
+                        <span class="hint">"Frame"</span>
+                        <select
+                            data-testid="explain-kind"
+                            prop:value=chosen
+                            on:change:target=move |event| choose(event.target().value())
+                        >
+                            {kinds.into_iter().map(|(name, title)| {
+                                let mine = name.clone();
+                                view! {
+                                    <option value=name.clone() selected=move || chosen() == mine>
+                                        {format!("{} · {title}", name.replace('-', " "))}
+                                    </option>
+                                }
+                            }).collect_view()}
+                        </select>
+                    </label>
+                })
+            }}
+        </div>
+    }
+}
+
+/// What can be done with the frame as a whole.
+#[component]
+fn Tools() -> impl IntoView {
+    let app = expect_context::<App>();
+    let paper = app.paper;
+    let text = move || {
+        let bytes = paper.plan.with(|plan| plan.bytes);
+        let text = paper.with(Sketch::text).unwrap_or_default();
+        match bytes {
+            true => text.to_uppercase(),
+            false => text,
+        }
+    };
+    let enter = move |typed: String| paper.take(&typed, app.profile.get_untracked(), None);
+    let follow = move || paper.checks.get() == sketch::Checks::Follow;
+    let checked = move || {
+        paper
+            .plan
+            .with(|plan| plan.fields.iter().any(|field| field.is_check))
+    };
+    let again = move |_| {
+        let kind = paper.plan.with_untracked(|plan| plan.kind().to_owned());
+        paper.choose(app.profile.get_untracked(), &kind);
+    };
+    view! {
+        <div class="tools">
+            <label class="whole">
+                "The whole frame"
+                <input
+                    spellcheck="false"
+                    autocomplete="off"
+                    data-testid="explain-frame"
+                    prop:value=text
+                    on:change:target=move |event| enter(event.target().value())
+                />
+            </label>
+            {move || checked().then(|| view! {
+                <label class="check-box">
+                    <input
+                        type="checkbox"
+                        data-testid="explain-follow"
+                        prop:checked=follow
+                        on:change=move |_| {
+                            paper.checks.update(|checks| *checks = match checks {
+                                sketch::Checks::Follow => sketch::Checks::Stay,
+                                sketch::Checks::Stay => sketch::Checks::Follow,
+                            });
+                        }
+                    />
+                    "checks follow what is changed"
+                </label>
+                <button data-testid="explain-mend" on:click=move |_| { paper.change(|sketch, _| sketch.mend()); }>
+                    "Compute the checks"
+                </button>
+            })}
+            <button data-testid="explain-example" on:click=again>"Example again"</button>
+        </div>
+        {move || paper.fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
+    }
+}
+
+/// Where the manuals would lead a reader of this format wrong.
+#[component]
+fn Errata() -> impl IntoView {
+    let app = expect_context::<App>();
+    let format = Memo::new(move |_| app.profile.get().format);
+    move || {
+        let errata: Vec<_> = format.get().errata().collect();
+        (!errata.is_empty()).then(|| {
+            view! {
+                <section class="panel errata">
+                    <h2>"The manuals are wrong here"</h2>
+                    <ul>
+                        {errata.into_iter().map(|erratum| view! {
+                            <li data-testid="erratum">
+                                <b>{erratum.place}</b> ": “" {erratum.says} "”. Right is: " {erratum.right}
+                                " – " {erratum.because} "."
+                            </li>
+                        }).collect_view()}
+                    </ul>
+                </section>
+            }
+        })
+    }
+}
