@@ -1,0 +1,226 @@
+//! The wires while the frame is sent, in step with the bits.
+
+use super::paper::{Lit, Paper};
+use crate::app::App;
+use encoderscope::{
+    diagram::{Fold, Lane, Limit, Master, Slot, Timeline, What},
+    format::Link,
+    layout::Class,
+};
+use leptos::{html, prelude::*};
+
+/// Width of a bit, and heights of what is drawn, in pixels.
+const BIT: f64 = 20.0;
+const LANE: f64 = 58.0;
+const SWING: f64 = 26.0;
+const TOP: f64 = 26.0;
+/// Room for the names of the wires.
+const LEFT: f64 = 64.0;
+
+#[component]
+pub(super) fn Wave() -> impl IntoView {
+    let app = expect_context::<App>();
+    let paper = app.paper;
+    let hertz = RwSignal::new(Master::default().hertz);
+    let clocked = Memo::new(move |_| app.profile.get().link() == Link::Clocked);
+    let timeline = Memo::new(move |_| {
+        let master = Master {
+            hertz: hertz.get(),
+            ..Master::default()
+        };
+        paper.with(|sketch| sketch.timeline(&master))
+    });
+    let frame = NodeRef::<html::Div>::new();
+    // What is pointed at elsewhere is brought into sight here.
+    Effect::new(move || {
+        let lit = paper.lit.get();
+        let bit = match lit {
+            Some(Lit::Bit(bit)) => Some(bit),
+            Some(Lit::Field(field)) => paper
+                .plan
+                .with_untracked(|plan| plan.cells.iter().position(|cell| *cell == Some(field))),
+            None => None,
+        };
+        let x = timeline.with_untracked(|timeline| {
+            let timeline = timeline.as_ref()?;
+            let fold = Fold::new(timeline, BIT);
+            Some(LEFT + fold.x(timeline.slot_of(bit?)?.from))
+        });
+        if let (Some(x), Some(frame)) = (x, frame.get_untracked()) {
+            let (left, width) = (f64::from(frame.scroll_left()), f64::from(frame.client_width()));
+            if x < left + LEFT || x > left + width - 2.0 * BIT {
+                frame.set_scroll_left((x - width / 3.0) as i32);
+            }
+        }
+    });
+    let enter = move |text: String| {
+        if let Ok(kilohertz) = text.trim().replace(',', ".").parse::<f64>() {
+            hertz.set((kilohertz * 1e3).clamp(1.0, 1e8) as u32);
+        }
+        hertz.notify();
+    };
+    let picture = move || timeline.with(|timeline| timeline.as_ref().map(|timeline| draw(paper, timeline)));
+    let limits = move || {
+        let limits = timeline.with(|timeline| timeline.as_ref().map(|timeline| timeline.limits.clone()));
+        limits.unwrap_or_default().into_iter().map(limit).collect_view()
+    };
+    view! {
+        <section class="panel">
+            <div class="heading">
+                <h2>"On the wire"</h2>
+                {move || match clocked.get() {
+                    true => view! {
+                        <label>
+                            <span class="hint">"Clock, kHz"</span>
+                            <input
+                                class="entry"
+                                inputmode="decimal"
+                                data-testid="explain-clock"
+                                prop:value=move || (f64::from(hertz.get()) / 1e3).to_string()
+                                on:change:target=move |event| enter(event.target().value())
+                            />
+                        </label>
+                    }.into_any(),
+                    false => view! {
+                        <span class="hint">{move || format!("{} baud, 8N1", app.profile.get().baud)}</span>
+                    }.into_any(),
+                }}
+            </div>
+            <div class="wave" node_ref=frame tabindex="0" role="region" aria-label="Timing diagram">{picture}</div>
+            <ul class="limits">{limits}</ul>
+        </section>
+    }
+}
+
+fn limit(limit: Limit) -> impl IntoView {
+    let (class, sign) = match limit.holds {
+        true => ("good", "✓"),
+        false => ("bad", "✗"),
+    };
+    view! {
+        <li data-testid="explain-limit" data-value=limit.holds.to_string()>
+            <b class=class>{sign} " " {limit.name} ": " {limit.value}</b>
+            <span class="doc">{format!("{} ({})", limit.text, limit.source)}</span>
+        </li>
+    }
+}
+
+fn draw(paper: Paper, timeline: &Timeline) -> impl IntoView + use<> {
+    let fold = Fold::new(timeline, BIT);
+    let height = TOP + LANE * timeline.lanes.len() as f64 + 4.0;
+    let width = LEFT + fold.width() + 8.0;
+    let lanes = timeline.lanes.iter().enumerate();
+    let lanes: Vec<_> = lanes
+        .map(|(index, lane)| wire(lane, TOP + LANE * index as f64, timeline.end, &fold))
+        .collect();
+    let slots: Vec<_> = timeline
+        .slots
+        .iter()
+        .map(|slot| stretch(paper, slot, &fold))
+        .collect();
+    let folds: Vec<_> = fold
+        .cells()
+        .iter()
+        .filter(|cell| cell.is_folded)
+        .map(|cell| {
+            let x = LEFT + cell.x + cell.width / 2.0;
+            view! { <text class="fold" x=x y=TOP + LANE - 22.0>"≈"</text> }
+        })
+        .collect();
+    let names = names(paper, timeline, &fold);
+    view! {
+        <svg
+            width=width
+            height=height
+            viewBox=format!("0 0 {width} {height}")
+            role="img"
+            aria-label="Levels of the wires over time"
+            on:mouseleave=move |_| paper.lit.set(None)
+        >
+            {slots}
+            {names}
+            {lanes}
+            {folds}
+        </svg>
+    }
+}
+
+/// One wire.
+fn wire(lane: &Lane, top: f64, end: i64, fold: &Fold) -> impl IntoView + use<> {
+    let y = |level: bool| if level { top + 10.0 } else { top + 10.0 + SWING };
+    let mut level = lane.level_at(0);
+    let mut path = format!("M {LEFT} {}", y(level));
+    for step in &lane.steps {
+        let x = LEFT + fold.x(step.time);
+        path += &format!(" L {x:.1} {} L {x:.1} {}", y(level), y(step.level));
+        level = step.level;
+    }
+    path += &format!(" L {:.1} {}", LEFT + fold.x(end), y(level));
+    view! {
+        <text class="wire-name" x="0" y=top + 10.0 + SWING / 2.0 + 4.0>{lane.name}</text>
+        <path class="wire" d=path />
+    }
+}
+
+/// A stretch of time, to point at.
+fn stretch(paper: Paper, slot: &Slot, fold: &Fold) -> AnyView {
+    let (x, to) = (LEFT + fold.x(slot.from), LEFT + fold.x(slot.to));
+    let y = TOP + LANE * slot.lane as f64;
+    let width = (to - x).max(0.0);
+    let What::Bit(bit) = slot.what else {
+        return view! {
+            <rect class="slot other" x=x y=y width=width height=LANE - 8.0>
+                <title>{slot.what.name()}</title>
+            </rect>
+        }
+        .into_any();
+    };
+    let class = paper.plan.with_untracked(|plan| plan.class_of(bit));
+    let value = move || paper.with(|sketch| u8::from(sketch.bits().bit(bit)));
+    view! {
+        <g
+            class=format!("slot {}", class.map_or("none", Class::name))
+            class:lit=move || paper.is_lit(bit)
+            data-testid="explain-slot"
+            data-index=bit
+            on:mouseenter=move |_| paper.lit.set(Some(Lit::Bit(bit)))
+        >
+            <rect x=x y=y width=width height=LANE - 8.0 />
+            <text x=x + width / 2.0 y=y + LANE - 11.0>{value}</text>
+        </g>
+    }
+    .into_any()
+}
+
+/// The name of each field above its first bit on the wire, and of what else is seen.
+fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
+    let plan = paper.plan.get_untracked();
+    let mut names = Vec::new();
+    let mut last = None;
+    let mut free = 0.0;
+    for slot in timeline.of_lane(timeline.encoder()) {
+        let (text, class) = match slot.what {
+            What::Bit(bit) => {
+                let field = plan.cells.get(bit).copied().flatten();
+                if field == last {
+                    continue;
+                }
+                last = field;
+                let Some(field) = field.and_then(|field| plan.fields.get(field)) else {
+                    continue;
+                };
+                (field.title(), field.class.name())
+            }
+            What::Start | What::Stop => continue,
+            other => (other.name().to_owned(), "none"),
+        };
+        let x = LEFT + fold.x(slot.from);
+        // A name that has no room is in the fields, and in what is pointed at.
+        if x < free {
+            continue;
+        }
+        free = x + text.chars().count() as f64 * 7.2 + 6.0;
+        names.push(view! { <text class=format!("name {class}") x=x y="14">{text}</text> }.into_any());
+    }
+    names
+}
