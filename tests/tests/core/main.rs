@@ -11,6 +11,7 @@ mod corpus;
 mod crc_search;
 mod detection;
 mod detection_kinds;
+mod diagrams;
 mod doctor;
 mod dumps;
 mod encoders;
