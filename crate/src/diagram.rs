@@ -1,7 +1,8 @@
 //! Pictures of frames: what the wires do while a frame is sent, and the frame with its fields.
 //!
 //! A [`Timeline`] is the timing of one frame as data, for any format: the levels of both wires,
-//! and which stretch of time every bit of the frame occupies. All of it is read from the same
+//! and which stretch of time every bit of the frame occupies. [`svg`] draws frames and timelines;
+//! [`wavejson`] and [`bitfield`] exchange them with WaveDrom. All of it is read from the same
 //! [`crate::layout::Resolved`] layout that decodes the frame.
 //!
 //! ```
@@ -19,12 +20,17 @@
 //! # Ok::<(), encoderscope::profile::ProfileError>(())
 //! ```
 
+pub mod bitfield;
 mod clocked;
 mod fold;
 mod limits;
+mod relaxed;
+pub mod svg;
 mod timeline;
 mod uart;
+pub mod wavejson;
 
-pub use fold::Fold;
+pub use fold::{Cell, Fold};
 pub use limits::Limit;
+pub use relaxed::Unreadable;
 pub use timeline::{Lane, Master, Side, Slot, Step, Timeline, What};

@@ -32,11 +32,16 @@ const SERIAL: &[&str] = &[
 ];
 
 /// Own layouts that a master clocks.
-const OWN_CLOCKED: &[&str] = &[
+pub(crate) const OWN_CLOCKED: &[&str] = &[
     "format=own layout=rls-biss-26",
     "format=own layout=incoder-ssi6",
     "format=own layout=Mine;line;turns:3:gray,angle:10:gray,odd:1",
 ];
+
+/// Profiles of every format and of own layouts.
+pub(crate) fn profiles() -> impl Iterator<Item = &'static str> {
+    SERIAL.iter().chain(PROFILES).chain(OWN_CLOCKED).copied()
+}
 
 fn noisy(noise: &mut Noise, layout: &Resolved) -> BitString {
     let mut bits = BitString::zeros(layout.len);
@@ -124,8 +129,7 @@ fn every_bit_of_every_layout_is_read_where_its_slot_says() {
         let bits = noisy(&mut noise, &case.layout);
         obeys(&case.name, &case.layout, bits.as_bits());
     }
-    let others = SERIAL.iter().chain(PROFILES).chain(OWN_CLOCKED);
-    for parameters in others {
+    for parameters in profiles() {
         let decoder = decoder(parameters);
         for values in values(&decoder) {
             let bits = decoder.encode(&values);
@@ -476,7 +480,7 @@ fn what_stands_around_a_frame_in_a_dump_is_where_it_belongs() {
 
 #[test]
 fn a_fold_keeps_the_order_of_time_and_the_width_of_bits() {
-    for parameters in SERIAL.iter().chain(PROFILES).chain(OWN_CLOCKED) {
+    for parameters in profiles() {
         let decoder = decoder(parameters);
         let frame = decoder.encode(&values(&decoder)[2]);
         let layout = match decoder.profile().link() {
