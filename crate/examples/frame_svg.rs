@@ -20,6 +20,7 @@ use encoderscope::{
     dump,
     emulator::{Emulator, Shaft},
     format::Medium,
+    framing::Why,
     profile::Profile,
 };
 use flags::Flags;
@@ -86,6 +87,10 @@ fn number(name: &str, text: &str) -> Result<u32, String> {
 /// The frame of a dump, which must be one.
 fn given(decoder: &Decoder, text: &str) -> Result<BitString, String> {
     let dump = dump::parse(text, decoder.profile().medium());
+    let unit = match decoder.profile().medium() {
+        Medium::Bits => "bits",
+        Medium::Bytes | Medium::Text => "bytes",
+    };
     let mut found = Vec::new();
     let mut skipped = Vec::new();
     decoder.dump(&dump, &mut |decoded| match decoded {
@@ -96,7 +101,10 @@ fn given(decoder: &Decoder, text: &str) -> Result<BitString, String> {
             }
             found.push(bits);
         }
-        Decoded::Skip { why, .. } => skipped.push(why.to_string()),
+        Decoded::Skip { why, .. } => skipped.push(match why {
+            Why::Truncated { have, need } => format!("{have} {unit} are too few, it has {need}"),
+            other => other.to_string(),
+        }),
     });
     match (found.len(), skipped.first()) {
         (1, _) => Ok(found.remove(0)),

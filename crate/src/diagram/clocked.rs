@@ -15,6 +15,8 @@ use alloc::vec::Vec;
 /// From a rising edge to the data that it brings, as far as the clock leaves room for it: about
 /// what a driver takes.
 const DELAY: i64 = 50 * NANOSECOND;
+/// The longest first low and pause that are drawn.
+const LONGEST: i64 = 10 * SECOND;
 /// Index of the encoder's lane.
 const DATA: usize = 1;
 
@@ -36,9 +38,10 @@ pub(super) fn timeline(layout: &Resolved, bits: Bits<'_>, master: &Master) -> Ti
     }
 
     let half = SECOND / 2 / i64::from(master.hertz.max(1));
+    let first_low = master.first_low.map(|low| low.clamp(1, LONGEST));
     let mut wave = Wave::verbatim(timing);
     wave.hertz = master.hertz;
-    wave.first_low = master.first_low;
+    wave.first_low = first_low;
     wave.delay = DELAY.min(half / 4);
     wave.pause = half * 2;
     wave.frame(&word);
@@ -69,8 +72,8 @@ pub(super) fn timeline(layout: &Resolved, bits: Bits<'_>, master: &Master) -> Ti
     let last = |times: &[i64]| times.last().copied().unwrap_or(0);
 
     let ready = last(&falls).saturating_add(wave.timeout);
-    let pause = master.pause.unwrap_or(timing.pause);
-    let paused = last(&rises).saturating_add(pause.max(0));
+    let pause = master.pause.unwrap_or(timing.pause).clamp(0, LONGEST);
+    let paused = last(&rises).saturating_add(pause);
     let behind = last(&rises).saturating_add(wave.delay);
     let end = ready.max(paused).max(behind).saturating_add(half * 2);
     let mut slots = Vec::new();
@@ -110,7 +113,7 @@ pub(super) fn timeline(layout: &Resolved, bits: Bits<'_>, master: &Master) -> Ti
     ticks.extend([ready, paused]);
     let places = limits::Clock {
         half,
-        first_low: master.first_low.unwrap_or(half),
+        first_low: first_low.unwrap_or(half),
         pause,
         fall: first(&falls),
         rise: first(&rises),

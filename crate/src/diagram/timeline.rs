@@ -9,9 +9,10 @@ use alloc::vec::Vec;
 pub struct Master {
     /// Frequency of the clock in hertz.
     pub hertz: u32,
-    /// How long the first low lasts in picoseconds, where it is not half a period.
+    /// How long the first low lasts in picoseconds, up to ten seconds, where it is not half a
+    /// period.
     pub first_low: Option<i64>,
-    /// How long the clock rests behind the frame in picoseconds; as long as the manual asks where
+    /// How long the clock rests behind the frame in picoseconds, up to ten seconds; as long as the manual asks where
     /// nobody says otherwise.
     pub pause: Option<i64>,
 }

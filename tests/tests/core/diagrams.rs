@@ -508,3 +508,34 @@ fn a_fold_keeps_the_order_of_time_and_the_width_of_bits() {
         assert!(fold.width() < (bits + 45.0) * 12.0, "{parameters}");
     }
 }
+
+#[test]
+fn strange_masters_and_frames_are_drawn_too() {
+    for parameters in profiles() {
+        let decoder = decoder(parameters);
+        let layout = decoder.main_layout();
+        for hertz in [0, 1, 9_999, u32::MAX] {
+            for time in [None, Some(i64::MIN), Some(0), Some(1), Some(i64::MAX)] {
+                let master = Master {
+                    hertz,
+                    first_low: time,
+                    pause: time,
+                };
+                // Too few bits read as 0.
+                for bytes in [&[][..], &[0xff]] {
+                    let timeline = Timeline::new(layout, Bits::of_bytes(bytes), &master);
+                    assert!(timeline.slots.iter().all(|slot| slot.from < slot.to));
+                    assert!(timeline.ticks.windows(2).all(|two| two[0] < two[1]));
+                    let fold = Fold::new(&timeline, 10.0);
+                    assert!(fold.width().is_finite(), "{parameters}");
+                }
+            }
+        }
+    }
+    for baud in ["1", "50000000"] {
+        let decoder = decoder(&format!("format=t485 baud={baud}"));
+        let frame = decoder.encode(&values(&decoder)[1]);
+        let layout = decoder.layout(frame.as_bits().bytes()).unwrap();
+        obeys(baud, layout, frame.as_bits());
+    }
+}

@@ -13,13 +13,13 @@ use encoderscope::{
     diagram::{Master, Timeline, bitfield, wavejson},
     format::{
         Format, Link, Medium,
-        own::{self, Framing, SHIPPED},
+        own::{self, Framing, SHIPPED, Written},
     },
     layout::{Resolved, Role},
     profile::Profile,
     record::Value,
 };
-use encoderscope_tests::decoder;
+use encoderscope_tests::{Noise, decoder};
 
 fn read<'a>(decoder: &'a Decoder, bits: &'a BitString) -> Frame<'a> {
     let bits = bits.as_bits();
@@ -150,7 +150,7 @@ fn waves_as_people_write_them_are_read() {
             "001",
         ),
         (
-            "{signal:['group',{name:'CLOCK',wave:'10101010'},['inner',{name:'DATA',wave:'1..01..0'}]]}",
+            "{signal:['group',{name:'CLOCK',wave:'10101010'},['inner',{name:'DATA',wave:'1.0.1.0.'}]]}",
             "010",
         ),
         (
@@ -370,4 +370,75 @@ fn bit_fields_of_others_are_read_by_their_names() {
     }
     let many = format!("[{}]", "{bits:1},".repeat(41));
     assert!(read(&many).unwrap_err().to_string().contains("41 fields"));
+}
+
+#[test]
+fn no_text_makes_a_reader_fail_otherwise_than_by_saying_why() {
+    let mut noise = Noise::new(11);
+    let pieces = [
+        "{",
+        "}",
+        "[",
+        "]",
+        ":",
+        ",",
+        "'",
+        "\"",
+        "signal",
+        "wave",
+        "name",
+        "reg",
+        "bits",
+        "attr",
+        "'clk'",
+        "'p.|n'",
+        "'1x='",
+        "data",
+        "phase",
+        "period",
+        "-1e30",
+        "0x7fffffffffffffffff",
+        "9",
+        "'a[7:0]'",
+        "'angle:8:le'",
+        "'b[4294967295:4294967295]'",
+        "\\u",
+        "//",
+        "/*",
+        "\n",
+        "é",
+    ];
+    let ssi = Format::Ssi.default_profile();
+    for _ in 0..20_000 {
+        let count = noise.below(24);
+        let text: String = (0..count)
+            .map(|_| pieces[noise.below(pieces.len() as u64) as usize])
+            .collect();
+        let _ = wavejson::read(&text, &ssi);
+        let _ = bitfield::read(&text, &text, Framing::Biss);
+    }
+    // The forms of both, with the strangest values in every place.
+    for _ in 0..5_000 {
+        let mut piece = || pieces[noise.below(pieces.len() as u64) as usize];
+        let wave = format!(
+            "{{signal:[{{name:'clk',wave:'nn.n',period:{},phase:{}}},{{name:{},wave:{},data:{}}}]}}",
+            piece(),
+            piece(),
+            piece(),
+            piece(),
+            piece()
+        );
+        let _ = wavejson::read(&wave, &ssi);
+        let field = format!(
+            "[{{name:{},bits:{},attr:{}}},{{name:'a[15:8]',bits:8,attr:'angle:8:le'}}]",
+            piece(),
+            piece(),
+            piece()
+        );
+        if let Ok(found) = bitfield::read(&field, "It", Framing::Line) {
+            let text = found.to_string();
+            let again: Result<Written, _> = text.parse();
+            assert_eq!(again.as_ref(), Ok(&found), "{field}: {text}");
+        }
+    }
 }

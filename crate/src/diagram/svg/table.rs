@@ -5,11 +5,7 @@ use crate::{
     explain::{Note, grouped},
     layout::Resolved,
 };
-use alloc::{
-    format,
-    string::{String, ToString},
-    vec::Vec,
-};
+use alloc::{format, string::String, vec::Vec};
 
 /// Width of a letter of a monospaced word, of plain text.
 const MONO: f64 = 7.4;
@@ -86,13 +82,13 @@ fn bits(layout: &Resolved, note: &Note, scene: &Scene<'_>) -> String {
     let count = field.width;
     let width = count as usize;
     let wire = layout.wire(field, scene.frame.bits);
-    match count {
-        0..=BITS => format!("{wire:0width$b} · {count} bit"),
-        ..=64 => format!(
-            "0x{wire:0digits$x} · {count} bit",
-            digits = width.div_ceil(4)
-        ),
-        _ => format!("{count} bit"),
+    if count <= BITS {
+        format!("{wire:0width$b} · {count} bit")
+    } else if count <= u64::BITS {
+        let digits = width.div_ceil(4);
+        format!("0x{wire:0digits$x} · {count} bit")
+    } else {
+        format!("{count} bit")
     }
 }
 
@@ -107,7 +103,7 @@ pub(super) fn limits(pen: &mut Pen, timeline: &Timeline) {
         pen.down(LINE);
         let head = format!("{mark} {}: {verdict}, {}", limit.name, limit.value);
         pen.text(MARGIN, class, &head);
-        let asked = format!("{} ({})", limit.text, limit.source).to_string();
+        let asked = format!("{} ({})", limit.text, limit.source);
         for line in pen.wrapped(&asked, pen.inner() - 16.0, TEXT) {
             pen.down(LINE);
             pen.text(MARGIN + 16.0, "es-dim", &line);
