@@ -102,7 +102,7 @@ fn given(decoder: &Decoder, text: &str) -> Result<BitString, String> {
             found.push(bits);
         }
         Decoded::Skip { why, .. } => skipped.push(match why {
-            Why::Truncated { have, need } => format!("{have} {unit} are too few, it has {need}"),
+            Why::Truncated { have, need } => format!("only {have} of {need} {unit}"),
             other => other.to_string(),
         }),
     });

@@ -30,7 +30,7 @@ use alloc::{
     string::{String, ToString},
     vec::Vec,
 };
-use pen::Pen;
+use pen::{Pen, wrapped};
 
 /// Pixels around everything.
 const MARGIN: f64 = 16.0;
@@ -163,7 +163,7 @@ impl<'a> Scene<'a> {
         pen.text(MARGIN, "es-head es-ink", &self.title());
         let bytes = self.frame.bits.bytes();
         let digits: Vec<String> = bytes.iter().map(|byte| hex(&[*byte])).collect();
-        for line in pen.wrapped(&digits.join(" "), pen.inner(), 7.4) {
+        for line in wrapped(&digits.join(" "), pen.inner(), 7.4) {
             pen.down(18.0);
             pen.text(MARGIN, "es-mono es-dim", &line);
         }
@@ -173,12 +173,12 @@ impl<'a> Scene<'a> {
         };
         if self.faults.is_empty() {
             pen.down(20.0);
-            pen.text(MARGIN, "es-text es-good", &format!("✓ {checked}"));
+            pen.text(MARGIN, "es-good", &format!("✓ {checked}"));
         }
         for fault in &self.faults {
-            for line in pen.wrapped(&format!("✗ {fault}"), pen.inner(), 7.0) {
+            for line in wrapped(&format!("✗ {fault}"), pen.inner(), 7.0) {
                 pen.down(20.0);
-                pen.text(MARGIN, "es-text es-bad", &line);
+                pen.text(MARGIN, "es-bad", &line);
             }
         }
         pen.down(16.0);

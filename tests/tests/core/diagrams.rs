@@ -11,7 +11,7 @@ use encoderscope::{
     capture::{Capture, Edge, Wire},
     decode::Decoder,
     diagram::{Fold, Master, Side, Timeline, What},
-    format::{Format, Link, bus, rs485::Command, t485::Request},
+    format::{Format, Link, bus, own::Own, rs485::Command, t485::Request},
     layout::Resolved,
 };
 use encoderscope_tests::{Noise, decoder};
@@ -58,11 +58,9 @@ fn drawn(layout: &Resolved, bits: Bits<'_>) -> Timeline {
 
 /// Bits of a dump that were never on the wire: what stands in front of a word.
 fn unsent(layout: &Resolved) -> usize {
-    match layout.shape.preamble {
-        true => 0,
-        false if layout.shape.link() == Link::Clocked => {
-            (layout.shape.idle + layout.shape.unused) as usize
-        }
+    let is_clocked = layout.shape.link() == Link::Clocked;
+    match is_clocked && !layout.shape.preamble {
+        true => (layout.shape.idle + layout.shape.unused) as usize,
         false => 0,
     }
 }
@@ -181,7 +179,7 @@ fn a_receiver_reads_the_bytes_of_request_and_reply() {
             Format::Rs485 => Some(profile.command.byte()),
             Format::T485 => Some(Request::All.byte()),
             Format::Bus => Some(bus::request(profile, bus::Operation::Get, 0x1f)),
-            _ => profile.own.and_then(|own| own.request()),
+            _ => profile.own.and_then(Own::request),
         };
         for values in values(&decoder) {
             let frame = decoder.encode(&values).into_bytes();

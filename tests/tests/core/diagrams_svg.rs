@@ -241,6 +241,48 @@ fn nothing_is_drawn_outside_of_the_picture() {
     }
 }
 
+/// The names of a picture: where they begin and end, and how far down they stand.
+fn names(picture: &str) -> Vec<(f64, f64, f64)> {
+    let texts = picture
+        .lines()
+        .filter(|line| line.starts_with("<text class=\"es-name") && !line.contains("es-mid"));
+    let names = texts.map(|line| {
+        let (x, y) = (numbers(line, "x")[0], numbers(line, "y")[0]);
+        let text = line.split('>').nth(1).unwrap().split('<').next().unwrap();
+        let letters = unescaped(text).unwrap().chars().count();
+        (x, x + 6.6 * letters as f64, y)
+    });
+    names.collect()
+}
+
+#[test]
+fn names_cover_no_other_names() {
+    for parameters in profiles() {
+        let decoder = decoder(parameters);
+        let bits = decoder.encode(&values(&decoder)[3]);
+        let frame = read(&decoder, &bits);
+        for width in [320, 960] {
+            let style = Style {
+                width,
+                ..Style::default()
+            };
+            for picture in pictures(&frame, &style) {
+                let names = names(&picture);
+                for (index, (from, to, y)) in names.iter().enumerate() {
+                    assert!(
+                        *from >= 0.0 && *to <= f64::from(width),
+                        "{parameters} {width}"
+                    );
+                    let others = names.iter().skip(index + 1);
+                    let covered =
+                        others.filter(|other| other.2 == *y && other.0 < *to && *from < other.1);
+                    assert_eq!(covered.count(), 0, "{parameters} {width} at {from} {y}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn names_that_are_markup_stay_text() {
     let layout = "</text><script>\"&'\u{1};line;status:2:name=<b a=\"&\">:bits=<i>|&lt!,angle:12:name=a]]>'b";

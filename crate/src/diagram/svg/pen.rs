@@ -80,36 +80,6 @@ impl Pen {
         self.body += "</g>\n";
     }
 
-    /// Text cut at spaces, and within words that are longer than a line, into lines of at most
-    /// `room` pixels, where a letter is `letter` wide.
-    pub(super) fn wrapped(&self, text: &str, room: f64, letter: f64) -> Vec<String> {
-        let most = ((room / letter) as usize).max(8);
-        let mut lines = Vec::new();
-        let mut line = String::new();
-        let mut count = 0;
-        for word in text.split(' ') {
-            let letters: Vec<char> = word.chars().collect();
-            if count > 0 && count + 1 + letters.len() > most {
-                lines.push(core::mem::take(&mut line));
-                count = 0;
-            }
-            if count > 0 {
-                line.push(' ');
-                count += 1;
-            }
-            for letter in letters {
-                if count >= most {
-                    lines.push(core::mem::take(&mut line));
-                    count = 0;
-                }
-                line.push(letter);
-                count += 1;
-            }
-        }
-        lines.push(line);
-        lines
-    }
-
     /// The whole picture.
     pub(super) fn finish(self, theme: Theme, title: &str, desc: &str) -> String {
         let (width, height) = (number(self.width), number(self.y + MARGIN));
@@ -122,6 +92,36 @@ impl Pen {
              <rect class=\"es-panel\" width=\"{width}\" height=\"{height}\"/>\n{body}</svg>\n"
         )
     }
+}
+
+/// Text cut at spaces, and within words that are longer than a line, into lines of at most
+/// `room` pixels, where a letter is `letter` wide.
+pub(super) fn wrapped(text: &str, room: f64, letter: f64) -> Vec<String> {
+    let most = ((room / letter) as usize).max(8);
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    let mut count = 0;
+    for word in text.split(' ') {
+        let letters: Vec<char> = word.chars().collect();
+        if count > 0 && count + 1 + letters.len() > most {
+            lines.push(core::mem::take(&mut line));
+            count = 0;
+        }
+        if count > 0 {
+            line.push(' ');
+            count += 1;
+        }
+        for letter in letters {
+            if count >= most {
+                lines.push(core::mem::take(&mut line));
+                count = 0;
+            }
+            line.push(letter);
+            count += 1;
+        }
+    }
+    lines.push(line);
+    lines
 }
 
 /// At most two digits behind the point.

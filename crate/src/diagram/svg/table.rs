@@ -1,6 +1,11 @@
 //! Tables: the fields of a frame, the limits of a timeline.
 
-use super::{MARGIN, Scene, Timeline, labels::shortened, pen::Pen, strip::fill};
+use super::{
+    MARGIN, Scene, Timeline,
+    labels::shortened,
+    pen::{Pen, wrapped},
+    strip::fill,
+};
 use crate::{
     explain::{Note, grouped},
     layout::Resolved,
@@ -55,7 +60,7 @@ pub(super) fn fields(pen: &mut Pen, scene: &Scene<'_>) {
         for (class, words) in [("es-ink", Some(said.clone())), ("es-bad", fault)] {
             let words = words.unwrap_or_default();
             if !words.is_empty() {
-                let cut = pen.wrapped(&words, room, TEXT).into_iter();
+                let cut = wrapped(&words, room, TEXT).into_iter();
                 lines.extend(cut.map(|line| (class, line)));
             }
         }
@@ -104,7 +109,7 @@ pub(super) fn limits(pen: &mut Pen, timeline: &Timeline) {
         let head = format!("{mark} {}: {verdict}, {}", limit.name, limit.value);
         pen.text(MARGIN, class, &head);
         let asked = format!("{} ({})", limit.text, limit.source);
-        for line in pen.wrapped(&asked, pen.inner() - 16.0, TEXT) {
+        for line in wrapped(&asked, pen.inner() - 16.0, TEXT) {
             pen.down(LINE);
             pen.text(MARGIN + 16.0, "es-dim", &line);
         }
