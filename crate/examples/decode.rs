@@ -3,12 +3,16 @@
 //! `decode --format t485 --angle-bits 23 < dump.txt`; parameters as in
 //! [`encoderscope::profile`]. With `--detect`, ranks what the dump may be instead.
 
+#[path = "flags/flags.rs"]
+mod flags;
+
 use encoderscope::{
     decode::{Decoded, Decoder},
     detect::detect,
     dump,
     profile::Profile,
 };
+use flags::Flags;
 use std::{
     io::{self, Read, Write},
     process::ExitCode,
@@ -25,44 +29,19 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Box<dyn std::error::Error>> {
-    let mut pairs = Vec::new();
-    let mut detecting = false;
-    let mut words = std::env::args().skip(1);
-    while let Some(word) = words.next() {
-        if word == "--detect" {
-            detecting = true;
-            continue;
-        }
-        let name = word
-            .strip_prefix("--")
-            .ok_or_else(|| format!("{word:?} is no option; write --name value"))?;
-        let (name, value) = match name.split_once('=') {
-            Some((name, value)) => (name.to_owned(), value.to_owned()),
-            None => {
-                let value = words
-                    .next()
-                    .ok_or_else(|| format!("--{name} needs a value"))?;
-                (name.to_owned(), value)
-            }
-        };
-        pairs.push((name, value));
-    }
+    let flags = Flags::read(&["detect"])?;
     let mut input = Vec::new();
     io::stdin().read_to_end(&mut input)?;
     let text = String::from_utf8_lossy(&input);
     let mut out = io::BufWriter::new(io::stdout().lock());
-    if detecting {
+    if flags.has("detect") {
         for candidate in detect(&text) {
             writeln!(out, "{}", candidate.record())?;
         }
         return Ok(out.flush()?);
     }
 
-    let profile = Profile::parse(
-        pairs
-            .iter()
-            .map(|(name, value)| (name.as_str(), value.as_str())),
-    )?;
+    let profile = Profile::parse(flags.pairs())?;
     let decoder = Decoder::new(profile)?;
     let dump = dump::parse(&text, profile.medium());
     let mut broken = Ok(());

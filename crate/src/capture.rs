@@ -38,7 +38,9 @@ pub mod wave;
 mod wires;
 
 pub use recording::{Kind, Named, Options, Recording, Unreadable, sniff};
+pub(crate) use violation::{Duration, Frequency};
 pub use violation::{Violation, ViolationKind};
+pub(crate) use wires::choose;
 pub use wires::{Change, Reason, Signal, Use, Wires};
 
 use crate::{

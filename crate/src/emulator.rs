@@ -27,6 +27,7 @@ use crate::{
     session::Micros,
 };
 use alloc::vec::Vec;
+pub(crate) use answers::TURNAROUND;
 use answers::Talk;
 use counter::Scales;
 use shaft::split;
@@ -183,7 +184,7 @@ impl Emulator {
                 true => self.answer(now, *byte),
                 false => Vec::new(),
             };
-            let start = now + answers::TURNAROUND;
+            let start = now + TURNAROUND;
             self.wire.send(&self.faults, start, baud, echo, &reply);
         }
     }

@@ -20,7 +20,8 @@ pub use kind::FrameKind;
 
 use crate::{
     bits::{BitString, Bits, Span},
-    decode::{Decoded, Decoder},
+    decode::{Decoded, Decoder, Frame},
+    diagram::{Master, Timeline},
     dump::{self, Direction, Dump},
     emulator::{Emulator, Shaft},
     explain::Note,
@@ -31,7 +32,7 @@ use crate::{
     record,
     session::Micros,
 };
-use alloc::{string::String, vec::Vec};
+use alloc::{borrow::Cow, string::String, vec::Vec};
 
 /// How long an encoder is listened to, in microseconds: longer than any reply takes.
 const LISTEN: Micros = 100_000;
@@ -149,6 +150,27 @@ impl Sketch {
     #[must_use]
     pub fn bits(&self) -> Bits<'_> {
         self.bits.as_bits()
+    }
+
+    /// The frame as a receiver has it that knows where it begins.
+    #[must_use]
+    pub fn frame(&self) -> Frame<'_> {
+        Frame {
+            start: 0,
+            layout: Cow::Borrowed(&self.kind.layout),
+            bits: self.bits(),
+            sure: true,
+            request: None,
+        }
+    }
+
+    /// What the wires do while it is sent.
+    #[must_use]
+    pub fn timeline(&self, master: &Master) -> Timeline {
+        match self.kind.direction {
+            Direction::Sent => Timeline::request(&self.kind.layout, self.bits()),
+            Direction::Received => Timeline::new(&self.kind.layout, self.bits(), master),
+        }
     }
 
     /// What every field says.

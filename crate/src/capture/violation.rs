@@ -137,7 +137,7 @@ impl ViolationKind {
 
 /// A duration in the unit that suits it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Duration(pub(super) i64);
+pub(crate) struct Duration(pub(crate) i64);
 
 /// Writes `value / unit` with up to two decimals.
 fn decimal(f: &mut fmt::Formatter<'_>, value: i128, unit: i128) -> fmt::Result {
@@ -170,7 +170,7 @@ impl fmt::Display for Duration {
 
 /// A frequency in the unit that suits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frequency(pub(super) f64);
+pub(crate) struct Frequency(pub(crate) f64);
 
 impl fmt::Display for Frequency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -78,6 +78,15 @@ impl Wave {
     #[must_use]
     pub fn new(profile: &Profile) -> Option<Self> {
         let timing = profile.format.timing()?;
+        Some(Self::with(profile.format, timing))
+    }
+
+    /// An encoder that sends every bit it is given from the first rising edge on, idle ones too.
+    pub(crate) fn verbatim(timing: &'static Timing) -> Self {
+        Self::with(Format::Ssi, timing)
+    }
+
+    fn with(format: Format, timing: &'static Timing) -> Self {
         let mut wave = Self {
             hertz: 1_000_000,
             pause: timing.pause * 2,
@@ -89,7 +98,7 @@ impl Wave {
             glitch: None,
             behind: false,
             stuck: None,
-            format: profile.format,
+            format,
             timing,
             now: 0,
             edges: Vec::new(),
@@ -101,7 +110,7 @@ impl Wave {
         };
         wave.edge(0, Wire::Clock, true);
         wave.edge(0, Wire::Data, true);
-        Some(wave)
+        wave
     }
 
     /// When the last frame and the time-out behind it are over.

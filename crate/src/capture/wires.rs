@@ -232,7 +232,7 @@ impl Signal {
 ///
 /// `None` where there is no second signal.
 #[must_use]
-pub(super) fn choose(signals: &[Signal], asked: (Option<usize>, Option<usize>)) -> Option<Wires> {
+pub(crate) fn choose(signals: &[Signal], asked: (Option<usize>, Option<usize>)) -> Option<Wires> {
     let mut reasons = Vec::new();
     let mut clock = asked.0;
     let mut data = asked.1.filter(|_| asked.0 != asked.1);

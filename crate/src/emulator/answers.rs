@@ -16,7 +16,7 @@ use crate::{
 use alloc::vec::Vec;
 
 /// The reply starts 3 µs after the request (MPP "T485").
-pub(super) const TURNAROUND: Micros = 3;
+pub(crate) const TURNAROUND: Micros = 3;
 /// The first counts of an address sequence get no answer (MPP "BUS", set address, note 2).
 const SILENT_COUNTS: u8 = 3;
 /// A request of several bytes is given up when the next byte does not come.

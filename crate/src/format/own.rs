@@ -16,6 +16,7 @@
 mod draft;
 mod shipped;
 
+pub(crate) use draft::LONGEST_NAME;
 pub use draft::{CrcRule, Draft, Framing, Kind, MOST_FIELDS, Written};
 pub use shipped::{SHIPPED, Shipped};
 

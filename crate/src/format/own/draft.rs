@@ -24,7 +24,7 @@ const WIDEST_CRC: u32 = 16;
 /// Most bits of a field that only frames.
 const WIDEST_FRAMING: u32 = 256;
 /// Most letters of a title, a field's name or a status bit's name.
-const LONGEST_NAME: usize = 60;
+pub(crate) const LONGEST_NAME: usize = 60;
 
 choice! {
     /// What a field of a user's layout is.
