@@ -7,9 +7,8 @@
 //! - [`framing`]: bytes, cut anyhow, into frames and skips;
 //! - [`decode`]: a [`decode::Frame`] is bits and the layout that reads them;
 //! - [`reading`]: what the shaft does, from good frames only;
-//! - [`explain`]: what the bits say, from any frame; [`sketch`]: a frame that is changed bit by bit;
-//! - [`explain`]: what the bits say, from any frame; [`diagram`]: pictures of frames, and what the
-//!   wires do;
+//! - [`explain`]: what the bits say, from any frame; [`sketch`]: a frame that is changed bit by
+//!   bit; [`diagram`]: pictures of frames, and what the wires do;
 //! - [`detect`]: what a dump may be, ranked by evidence; [`sheet`]: a decoded dump as a table;
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
 //!   [`finder`]: which encoder is on the line; [`doctor`]: how the link is; [`emulator`]: the

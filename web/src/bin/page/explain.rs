@@ -6,6 +6,7 @@ mod paper;
 mod talk;
 mod verdict;
 mod walk;
+mod wave;
 
 pub(crate) use paper::Paper;
 
@@ -20,6 +21,7 @@ use leptos::prelude::*;
 use talk::Talk;
 use verdict::Verdict;
 use walk::Checks;
+use wave::Wave;
 
 #[component]
 pub(crate) fn Explain() -> impl IntoView {
@@ -40,6 +42,7 @@ pub(crate) fn Explain() -> impl IntoView {
                 </div>
                 <div class="side">
                     <Verdict />
+                    <Wave />
                     <Checks />
                     <Errata />
                     <section class="panel">

@@ -47,9 +47,9 @@ pub(super) fn Wave() -> impl IntoView {
             Some(LEFT + fold.x(timeline.slot_of(bit?)?.from))
         });
         if let (Some(x), Some(frame)) = (x, frame.get_untracked()) {
-            let (left, width) = (f64::from(frame.scroll_left()), f64::from(frame.client_width()));
+            let (left, width) = (frame.scroll_left(), f64::from(frame.client_width()));
             if x < left + LEFT || x > left + width - 2.0 * BIT {
-                frame.set_scroll_left((x - width / 3.0) as i32);
+                frame.set_scroll_left(x - width / 3.0);
             }
         }
     });
@@ -59,10 +59,16 @@ pub(super) fn Wave() -> impl IntoView {
         }
         hertz.notify();
     };
-    let picture = move || timeline.with(|timeline| timeline.as_ref().map(|timeline| draw(paper, timeline)));
+    let picture =
+        move || timeline.with(|timeline| timeline.as_ref().map(|timeline| draw(paper, timeline)));
     let limits = move || {
-        let limits = timeline.with(|timeline| timeline.as_ref().map(|timeline| timeline.limits.clone()));
-        limits.unwrap_or_default().into_iter().map(limit).collect_view()
+        let limits =
+            timeline.with(|timeline| timeline.as_ref().map(|timeline| timeline.limits.clone()));
+        limits
+            .unwrap_or_default()
+            .into_iter()
+            .map(limit)
+            .collect_view()
     };
     view! {
         <section class="panel">
@@ -147,7 +153,13 @@ fn draw(paper: Paper, timeline: &Timeline) -> impl IntoView + use<> {
 
 /// One wire.
 fn wire(lane: &Lane, top: f64, end: i64, fold: &Fold) -> impl IntoView + use<> {
-    let y = |level: bool| if level { top + 10.0 } else { top + 10.0 + SWING };
+    let y = |level: bool| {
+        if level {
+            top + 10.0
+        } else {
+            top + 10.0 + SWING
+        }
+    };
     let mut level = lane.level_at(0);
     let mut path = format!("M {LEFT} {}", y(level));
     for step in &lane.steps {
@@ -220,7 +232,9 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
             continue;
         }
         free = x + text.chars().count() as f64 * 7.2 + 6.0;
-        names.push(view! { <text class=format!("name {class}") x=x y="14">{text}</text> }.into_any());
+        names.push(
+            view! { <text class=format!("name {class}") x=x y="14">{text}</text> }.into_any(),
+        );
     }
     names
 }
