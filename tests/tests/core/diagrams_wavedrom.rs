@@ -5,14 +5,14 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use super::{
     captures::{PROFILES, values},
     diagrams::{OWN_CLOCKED, profiles},
+    diagrams_svg::read,
     layouts::layouts,
 };
 use encoderscope::{
-    bits::BitString,
-    decode::{Decoder, Frame},
+    decode::Decoder,
     diagram::{Master, Timeline, bitfield, wavejson},
     format::{
-        Format, Link, Medium,
+        Format, Link,
         own::{self, Framing, SHIPPED, Written},
     },
     layout::{Resolved, Role},
@@ -20,14 +20,6 @@ use encoderscope::{
     record::Value,
 };
 use encoderscope_tests::{Noise, decoder};
-
-fn read<'a>(decoder: &'a Decoder, bits: &'a BitString) -> Frame<'a> {
-    let bits = bits.as_bits();
-    match decoder.profile().medium() {
-        Medium::Bits => decoder.line(bits).expect("a frame"),
-        _ => decoder.frame(bits.bytes()).expect("a frame"),
-    }
-}
 
 /// A value as another reader of JSON has it.
 fn parsed(json: &Value) -> serde_json::Value {
