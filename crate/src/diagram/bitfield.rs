@@ -94,16 +94,22 @@ fn is_written(layout: &Resolved, field: &Field) -> bool {
 fn draft(layout: &Resolved, field: &Field, part: &Part) -> Draft {
     let row = field.row;
     let kind = kind(field);
-    let mut draft = Draft::new(kind, part.span.len as u32);
+    let little_endian = is_little_endian(layout, field);
+    // The bytes of one number are all written as the whole of it.
+    let (place, len) = match little_endian {
+        true => (0, field.width),
+        false => (part.place, part.span.len as u32),
+    };
+    let mut draft = Draft::new(kind, len);
     if row.name != kind.name() {
         draft.name = Some(plain(row.name));
     }
     draft.active = row.active;
     draft.gray = matches!(layout.coding(field), Some((Coding::Gray, _)));
-    draft.little_endian = is_little_endian(layout, field);
+    draft.little_endian = little_endian;
     if kind == Kind::Const {
         let value = row.constant.unwrap_or(0);
-        draft.value = bits::slice(value, part.place, part.span.len);
+        draft.value = bits::slice(value, place, len as usize);
     }
     if kind == Kind::Status && !row.bits.is_empty() {
         let name = |place| {
@@ -121,24 +127,24 @@ fn draft(layout: &Resolved, field: &Field, part: &Part) -> Draft {
                 xorout: algorithm.xorout,
             };
         }
-        (draft.from, draft.to) = cover(layout, part.span, span);
+        (draft.from, draft.to) = cover(layout, field, span);
     }
     draft
 }
 
-/// The names of the first and last field that a check at `own` covers, where they are not those
+/// The names of the first and last field that the check `own` covers, where they are not those
 /// that an own layout takes by itself: the first of all, and the one in front of the check.
-fn cover(layout: &Resolved, own: Span, covered: Span) -> (Option<String>, Option<String>) {
+fn cover(layout: &Resolved, own: &Field, covered: Span) -> (Option<String>, Option<String>) {
     let name = |at: usize| layout.field_at(at).map(|field| plain(field.row.name));
-    let first = layout
-        .fields()
-        .filter(|field| !frames(layout, field))
-        .filter_map(|field| layout.parts(field).first())
-        .map(|part| part.span.start)
-        .min();
+    let begins = |field: &Field| {
+        let parts = layout.parts(field).iter();
+        parts.map(|part| part.span.start).min()
+    };
+    let data = layout.fields().filter(|field| !frames(layout, field));
+    let first = data.filter_map(begins).min();
     let last = covered.end().saturating_sub(1);
     let from = (first != Some(covered.start)).then(|| name(covered.start));
-    let to = (covered.end() != own.start).then(|| name(last));
+    let to = (Some(covered.end()) != begins(own)).then(|| name(last));
     (from.flatten(), to.flatten())
 }
 
@@ -275,8 +281,9 @@ fn field(entry: &Record) -> Result<Option<Sent>, String> {
     };
     let range = range(name);
     if let Ok(draft) = attr.parse::<Draft>()
-        && draft.width == width
+        && (draft.width == width || draft.little_endian && draft.width > width)
     {
+        let draft = Draft { width, ..draft };
         return Ok(Some(Sent { draft, range }));
     }
     let name = plain(name.split('[').next().unwrap_or(name));

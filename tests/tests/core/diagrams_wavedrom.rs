@@ -5,14 +5,14 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use super::{
     captures::{PROFILES, values},
     diagrams::{OWN_CLOCKED, profiles},
+    diagrams_svg::read,
     layouts::layouts,
 };
 use encoderscope::{
-    bits::BitString,
-    decode::{Decoder, Frame},
+    decode::Decoder,
     diagram::{Master, Timeline, bitfield, wavejson},
     format::{
-        Format, Link, Medium,
+        Format, Link,
         own::{self, Framing, SHIPPED, Written},
     },
     layout::{Resolved, Role},
@@ -20,14 +20,6 @@ use encoderscope::{
     record::Value,
 };
 use encoderscope_tests::{Noise, decoder};
-
-fn read<'a>(decoder: &'a Decoder, bits: &'a BitString) -> Frame<'a> {
-    let bits = bits.as_bits();
-    match decoder.profile().medium() {
-        Medium::Bits => decoder.line(bits).expect("a frame"),
-        _ => decoder.frame(bits.bytes()).expect("a frame"),
-    }
-}
 
 /// A value as another reader of JSON has it.
 fn parsed(json: &Value) -> serde_json::Value {
@@ -254,6 +246,7 @@ const WRITTEN: &[&str] = &[
     "Split;line;angle:8,even:1,angle:8,odd:1:from=angle",
     "Gray;line;turns:4:gray,angle:10:gray,status:3:low:bits=hot||lost,skip:2,skip:3,zeros:1,zeros:1",
     "Odd start;line;error:1,angle:12:le,count:4:le,speed:16:le,temperature:12,crc:5:0x05:from=angle",
+    "Last;stream;angle:24:le,error:1,skip:7,crc:16:0x1021:le",
     "Two;line;angle:16:le,const:8:0x1f,angle:16:le",
 ];
 
@@ -281,7 +274,7 @@ fn an_own_layout_comes_back_as_it_was() {
         }
     }
     // Those with no names of their own come back to the letter.
-    for text in [WRITTEN[0], WRITTEN[1], WRITTEN[5]] {
+    for text in [WRITTEN[0], WRITTEN[1], WRITTEN[5], WRITTEN[6]] {
         let pairs = [("format", "own"), ("layout", text)];
         let decoder = Decoder::new(Profile::parse(pairs).unwrap()).unwrap();
         let written = decoder.profile().own.unwrap().written();

@@ -12,6 +12,8 @@ mod crc_search;
 mod detection;
 mod detection_kinds;
 mod diagrams;
+mod diagrams_golden;
+mod diagrams_limits;
 mod diagrams_svg;
 mod diagrams_wavedrom;
 mod doctor;
