@@ -50,6 +50,7 @@ pub(super) fn Talk() -> impl IntoView {
         let talk = talk.get()?;
         let last = talk.lines.len().saturating_sub(1);
         let holds = talk.holds.to_string();
+        let at_end = move || at.get() >= last;
         let rows = talk.lines.into_iter().enumerate();
         let rows = rows.map(|(index, line)| {
             view! {
@@ -74,7 +75,7 @@ pub(super) fn Talk() -> impl IntoView {
         Some(view! {
             <div class="bar-of">
                 <button disabled=move || at.get() == 0 data-testid="talk-back" on:click=move |_| go(at.get_untracked().saturating_sub(1))>"← back"</button>
-                <button disabled=move || at.get() >= last data-testid="talk-on" on:click=move |_| go((at.get_untracked() + 1).min(last))>"on →"</button>
+                <button disabled=at_end data-testid="talk-on" on:click=move |_| go((at.get_untracked() + 1).min(last))>"on →"</button>
                 <span class="hint" role="status">{move || format!("frame {} of {}", at.get() + 1, last + 1)}</span>
             </div>
             <ol class="talk-lines">{rows.collect_view()}</ol>
