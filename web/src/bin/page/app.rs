@@ -235,6 +235,15 @@ impl App {
     }
 }
 
+impl App {
+    /// The whole address that leads back here.
+    pub(crate) fn address(&self) -> String {
+        let address = window().location().href().unwrap_or_default();
+        let page = address.split('#').next().unwrap_or_default().to_owned();
+        page + &self.fragment()
+    }
+}
+
 /// The whole page.
 pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
     let app = App::new(workers);

@@ -19,6 +19,7 @@ mod eeprom;
 mod explain;
 mod finder;
 mod frame_view;
+mod handout;
 mod link_panel;
 mod live;
 mod log;

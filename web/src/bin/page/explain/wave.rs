@@ -14,8 +14,8 @@ const BIT: f64 = 20.0;
 const LANE: f64 = 58.0;
 const SWING: f64 = 26.0;
 const TOP: f64 = 26.0;
-/// Room for the names of the wires.
-const LEFT: f64 = 64.0;
+/// Room in front of the first level.
+const LEFT: f64 = 4.0;
 
 #[component]
 pub(super) fn Wave() -> impl IntoView {
@@ -92,7 +92,10 @@ pub(super) fn Wave() -> impl IntoView {
                     }.into_any(),
                 }}
             </div>
-            <div class="wave" node_ref=frame tabindex="0" role="region" aria-label="Timing diagram">{picture}</div>
+            <div class="wave-box">
+                {move || timeline.with(|timeline| timeline.as_ref().map(wire_names))}
+                <div class="wave" node_ref=frame tabindex="0" role="region" aria-label="Timing diagram">{picture}</div>
+            </div>
             <ul class="limits">{limits}</ul>
         </section>
     }
@@ -169,9 +172,18 @@ fn wire(lane: &Lane, top: f64, end: i64, fold: &Fold) -> impl IntoView + use<> {
     }
     path += &format!(" L {:.1} {}", LEFT + fold.x(end), y(level));
     view! {
-        <text class="wire-name" x="0" y=top + 10.0 + SWING / 2.0 + 4.0>{lane.name}</text>
         <path class="wire" d=path />
     }
+}
+
+/// The names of the wires, which stay while the levels are scrolled.
+fn wire_names(timeline: &Timeline) -> impl IntoView + use<> {
+    let height = TOP + LANE * timeline.lanes.len() as f64;
+    let names = timeline.lanes.iter().enumerate().map(|(index, lane)| {
+        let y = TOP + LANE * index as f64 + 10.0 + SWING / 2.0 + 4.0;
+        view! { <text x="0" y=y>{lane.name}</text> }
+    });
+    view! { <svg class="wire-names" width="60" height=height aria-hidden="true">{names.collect_view()}</svg> }
 }
 
 /// A stretch of time, to point at.
