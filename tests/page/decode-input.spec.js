@@ -1,6 +1,6 @@
 // Everything that support staff paste or drop, and what they send back.
 import { readFileSync } from 'node:fs';
-import { at, expect, number, test } from './page.js';
+import { at, download, expect, number, test } from './page.js';
 
 const file = (name) => readFileSync(new URL(`../${name}`, import.meta.url));
 const good = '1a 20 29 c0 3b 17 00 00 00 c8 37';
@@ -210,13 +210,6 @@ test('a broken link says so, and the page goes on', async ({ page }) => {
   await expect(at(page, 'dump-row')).toHaveAttribute('data-angle', '3915817');
   await expect(at(page, 'refusal')).toHaveCount(0);
 });
-
-const download = async (page, id) => {
-  const [saved] = await Promise.all([page.waitForEvent('download'), at(page, id).click()]);
-  const chunks = [];
-  for await (const chunk of await saved.createReadStream()) chunks.push(chunk);
-  return { name: saved.suggestedFilename(), text: Buffer.concat(chunks).toString() };
-};
 
 test('what is too long for a link becomes a file, and files open again', async ({ page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
