@@ -37,21 +37,21 @@ pub(crate) fn Explain() -> impl IntoView {
                 <BitRow />
                 <Tools />
             </section>
+            <Wave />
             <div class="sides">
                 <div class="side">
                     <Fields />
                     <Talk />
+                    <Errata />
                 </div>
                 <div class="side">
-                    <Verdict />
-                    <Wave />
-                    <Checks />
-                    <Exchange />
-                    <Errata />
                     <section class="panel">
                         <h2>"Which frame"</h2>
                         <ProfileEditor offer=Offer::All />
                     </section>
+                    <Verdict />
+                    <Checks />
+                    <Exchange />
                 </div>
             </div>
         </div>
