@@ -1,6 +1,6 @@
 //! What a recording comes to: every change of its signals, kept in a few bytes each.
 
-use super::{Change, Clocking, Named, Signal, recording::MOST_SIGNALS};
+use super::{Change, Clocking, Named, Signal, Unreadable, recording::MOST_SIGNALS};
 use crate::bits::{above, low_byte, placed, slice};
 use alloc::vec::Vec;
 
@@ -167,7 +167,7 @@ pub(super) struct Keeper {
     /// Bytes that may be kept.
     pub(super) room: usize,
     /// Whether they were not enough.
-    pub(super) full: bool,
+    full: bool,
 }
 
 impl Keeper {
@@ -210,7 +210,16 @@ impl Keeper {
         before + self.kept.blocks.last().map_or(0, Vec::len)
     }
 
-    pub(super) fn finish(mut self, named: &Named) -> Changes {
+    /// Whether everything could be kept so far.
+    pub(super) const fn fits(&self) -> Result<(), Unreadable> {
+        match self.full {
+            true => Err(Unreadable::TooManyChanges(self.room)),
+            false => Ok(()),
+        }
+    }
+
+    pub(super) fn finish(mut self, named: &Named) -> Result<Changes, Unreadable> {
+        self.fits()?;
         self.signals
             .resize_with(named.names.len(), || Signal::new(""));
         for (signal, name) in self.signals.iter_mut().zip(&named.names) {
@@ -222,7 +231,7 @@ impl Keeper {
                 *signal = Signal::new(&signal.name);
             }
         }
-        Changes {
+        Ok(Changes {
             signals: self.signals,
             // What lies between two changes is a bound of what the recorder tells apart.
             clocking: match named.clocking {
@@ -231,6 +240,6 @@ impl Keeper {
             },
             end: named.end,
             kept: self.kept,
-        }
+        })
     }
 }

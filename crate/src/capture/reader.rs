@@ -2,7 +2,7 @@
 
 #[cfg(feature = "vcd")]
 use super::vcd::Vcd;
-use super::{Change, Changes, Kind, Named, Unreadable, changes::Keeper, samples::Samples};
+use super::{Changes, Kind, Unreadable, changes::Keeper, samples::Samples};
 
 /// Bytes that the changes of a recording may take where nothing else is said.
 const ROOM: usize = 256_000_000;
@@ -77,7 +77,7 @@ impl Reader {
             Text::Vcd(vcd) => vcd.push(text, sink),
             Text::Samples(samples) => samples.push(text, sink),
         }?;
-        self.fits()
+        self.keeper.fits()
     }
 
     /// Says that the recording ends here.
@@ -86,11 +86,14 @@ impl Reader {
     ///
     /// As those of [`Reader::push`].
     pub fn finish(self) -> Result<Changes, Unreadable> {
-        self.end(|text, sink| match text {
+        let Self { text, mut keeper } = self;
+        let sink = &mut |change| keeper.take(change);
+        let named = match text {
             #[cfg(feature = "vcd")]
             Text::Vcd(vcd) => vcd.finish(sink),
             Text::Samples(samples) => samples.finish(sink),
-        })
+        }?;
+        keeper.finish(&named)
     }
 
     /// Says that nothing more is read, though more would come: a line or command that is not
@@ -100,29 +103,13 @@ impl Reader {
     ///
     /// As those of [`Reader::push`].
     pub fn cut(self) -> Result<Changes, Unreadable> {
-        self.end(|text, sink| match text {
+        #[cfg_attr(not(feature = "vcd"), expect(unused_mut))]
+        let Self { text, mut keeper } = self;
+        let named = match text {
             #[cfg(feature = "vcd")]
-            Text::Vcd(vcd) => vcd.cut(sink),
-            Text::Samples(samples) => Ok(samples.cut()),
-        })
-    }
-
-    fn end(
-        mut self,
-        read: impl FnOnce(Text, &mut dyn FnMut(Change)) -> Result<Named, Unreadable>,
-    ) -> Result<Changes, Unreadable> {
-        let keeper = &mut self.keeper;
-        let named = read(self.text, &mut |change| keeper.take(change))?;
-        match self.keeper.full {
-            true => Err(Unreadable::TooManyChanges(self.keeper.room)),
-            false => Ok(self.keeper.finish(&named)),
-        }
-    }
-
-    const fn fits(&self) -> Result<(), Unreadable> {
-        match self.keeper.full {
-            true => Err(Unreadable::TooManyChanges(self.keeper.room)),
-            false => Ok(()),
-        }
+            Text::Vcd(vcd) => vcd.cut(&mut |change| keeper.take(change))?,
+            Text::Samples(samples) => samples.cut(),
+        };
+        keeper.finish(&named)
     }
 }
