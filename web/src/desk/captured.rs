@@ -3,14 +3,20 @@
 use crate::message::Count;
 use encoderscope::{
     capture::{Clocked, Clocking, Recording, Violation},
+    dump::Dump,
     profile::Profile,
 };
+
+/// Frames of a stretch by which the input is judged.
+const STRETCH: usize = 400;
 
 /// What was found out about a recording.
 #[derive(Debug, Default)]
 pub(super) struct Captured {
     /// Which wires there are, and what else is to be said.
     pub(super) notes: Vec<String>,
+    /// The front, the middle and the end of the frames, by which it is judged what they are.
+    pub(super) sample: Dump,
     /// What is wrong with the timing of each frame.
     violations: Vec<Vec<Violation>>,
     /// How often what is wrong, by kind.
@@ -65,6 +71,14 @@ pub(super) fn word(read: &Recording) -> Option<Profile> {
     Profile::parse(pairs.iter().map(|(name, value)| (*name, value.as_str()))).ok()
 }
 
+/// Stretches of the frames.
+fn sample(frames: &[Clocked]) -> Dump {
+    let last = frames.len().saturating_sub(STRETCH);
+    let taken = |at: usize| at < STRETCH || at >= last || at.abs_diff(last / 2) < STRETCH / 2;
+    let frames = frames.iter().enumerate().filter(|(at, _)| taken(*at));
+    Dump::of_lines(frames.map(|(_, frame)| (frame.bits.clone(), Some(frame.seconds()))))
+}
+
 impl Captured {
     /// What is to be said of a recording whose format was chosen, or else guessed.
     pub(super) fn new(read: &Recording, chosen: Option<Profile>) -> Self {
@@ -78,6 +92,7 @@ impl Captured {
         notes.extend(read.stray.iter().map(ToString::to_string));
         Self {
             notes,
+            sample: sample(&read.frames),
             ..Self::default()
         }
     }

@@ -20,8 +20,9 @@ use encoderscope::{
 };
 use std::rc::Rc;
 
-/// Bytes of data that are decoded in one go.
+/// Bytes of data that are decoded in one go, and those of words of bits, which are short.
 const BUDGET: usize = 128 << 10;
+const BUDGET_OF_BITS: usize = 8 << 10;
 /// Rows that are looked at in one go.
 const ROWS: usize = 50_000;
 /// Microseconds of work before others get their turn.
@@ -273,7 +274,7 @@ impl Desk {
                 let super::State { sheet, paper, .. } = &mut *state;
                 match (sheet, paper.dump()) {
                     (Some(sheet), Some(dump)) => {
-                        let more = sheet.step(dump, BUDGET);
+                        let more = sheet.step(dump, budget(sheet));
                         sheet.arrange(dump, ROWS);
                         more
                     }
@@ -313,6 +314,13 @@ impl Desk {
                 return;
             }
         }
+    }
+}
+
+fn budget(sheet: &Sheet) -> usize {
+    match sheet.decoder().profile().medium() {
+        Medium::Bits => BUDGET_OF_BITS,
+        Medium::Bytes | Medium::Text => BUDGET,
     }
 }
 
