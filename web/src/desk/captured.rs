@@ -8,7 +8,7 @@ use encoderscope::{
 };
 
 /// Frames of a stretch by which the input is judged.
-const STRETCH: usize = 400;
+const STRETCH: usize = 200;
 
 /// What was found out about a recording.
 #[derive(Debug, Default)]
