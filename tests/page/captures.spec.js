@@ -12,10 +12,15 @@ const drop = (page, words, name) =>
       // Each word is behind a pause; the data line follows the clock.
       const parts = [head];
       let time = 100_000;
+      let noise = 1;
       for (let word = 0; word < words; word += 1) {
         let text = '';
+        // No checksum holds over it.
+        noise ^= noise << 13;
+        noise ^= noise >>> 17;
+        noise ^= noise << 5;
         for (let clock = 0; clock < 26; clock += 1) {
-          text += `#${time}\n0!\n#${time + 500}\n1!\n${(word >> (clock % 13)) & 1}"\n`;
+          text += `#${time}\n0!\n#${time + 500}\n1!\n${(noise >>> clock) & 1}"\n`;
           time += 1_000;
         }
         time += 50_000;
@@ -105,6 +110,11 @@ test('another profile frames a recording anew without reading it again', async (
   rmSync(path);
   await page.goto('/#/decode?format=ssi-tree&turns-bits=0&angle-bits=12&frame-bits=12');
   await expect(timing).toContainText('wrong number of clocks');
+  await expect(at(page, 'rows')).toHaveAttribute('data-value', '40');
+  // A layout of one's own reads the frames as they are.
+  await page.goto(`/#/decode?format=own&layout=${encodeURIComponent('Mine;line;angle:13')}`);
+  await expect(at(page, 'profile')).toContainText('Mine');
+  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-angle', '8191');
   await expect(at(page, 'rows')).toHaveAttribute('data-value', '40');
   await expect(at(page, 'refusal')).toHaveCount(0);
 });

@@ -115,7 +115,9 @@ impl Desk {
             state.framing = Framing::Running;
             state.profile
         };
-        let chosen = profile.filter(|profile| profile.link() == Link::Clocked);
+        let chosen = profile.filter(|profile| profile.format.timing().is_some());
+        // A layout of one's own knows no timing: it reads the frames that are found without it.
+        let own = profile.filter(|profile| profile.link() == Link::Clocked && chosen.is_none());
         let mut work = Work {
             desk: self,
             job,
@@ -128,9 +130,10 @@ impl Desk {
             return Ok(());
         }
         self.state.borrow_mut().framing = Framing::Idle;
-        let Some((captured, dump, profile)) = framed.map_err(|why| self.unframed(&why))? else {
+        let Some((captured, dump, framed)) = framed.map_err(|why| self.unframed(&why))? else {
             return Ok(());
         };
+        let profile = own.unwrap_or(framed);
         {
             let mut state = self.state.borrow_mut();
             // Lines of another length are something else.
