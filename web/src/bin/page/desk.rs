@@ -87,6 +87,8 @@ pub(crate) struct Desk {
     settling: StoredValue<Option<TimeoutHandle>>,
     /// Counts inputs, so that the payload of an earlier one is known.
     shares: StoredValue<u32>,
+    /// Counts what the worker tells of how far it is.
+    heard: StoredValue<u32>,
     profile: StoredValue<Option<Profile>>,
 }
 
@@ -122,6 +124,7 @@ impl Desk {
             typing: StoredValue::new(None),
             settling: StoredValue::new(None),
             shares: StoredValue::new(0),
+            heard: StoredValue::new(0),
             profile: StoredValue::new(None),
         }
     }
@@ -211,14 +214,16 @@ impl Desk {
     pub(crate) fn cancel(self) {
         self.send(ToDesk::Cancel);
         let input = self.shares.get_value();
+        let heard = self.heard.get_value();
         let dismiss = move || {
             let same = self.shares.try_get_value() == Some(input);
+            let silent = self.heard.try_get_value() == Some(heard);
             let busy = self
                 .overview
                 .try_with_untracked(|overview| !overview.done)
                 .unwrap_or(false);
-            if busy && same {
-                self.dismiss("Stopped. A recording of clock and data is read as a whole: nothing of it is kept.");
+            if busy && same && silent {
+                self.dismiss("Stopped. Decoding did not answer: nothing of the input is kept.");
             }
         };
         set_timeout(dismiss, PATIENCE);
@@ -233,6 +238,7 @@ impl Desk {
                 }
             }
             FromDesk::Overview(overview) => {
+                self.heard.update_value(|heard| *heard += 1);
                 if overview.done {
                     self.settle();
                 }
