@@ -19,25 +19,25 @@ pub(super) enum Leaf {
 /// A part of a format's page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Section {
-    Parameters,
     Frames,
     Commands,
     Sequences,
     Status,
     Timing,
     Checks,
+    Parameters,
     Errata,
 }
 
 impl Section {
     pub(super) const ALL: [Self; 8] = [
-        Self::Parameters,
         Self::Frames,
         Self::Commands,
         Self::Sequences,
         Self::Status,
         Self::Timing,
         Self::Checks,
+        Self::Parameters,
         Self::Errata,
     ];
 
@@ -64,7 +64,7 @@ impl Section {
             Self::Status => "Status bits",
             Self::Timing => "Timing",
             Self::Checks => "Checks",
-            Self::Errata => "Errors in the manuals",
+            Self::Errata => "Where manuals err",
         }
     }
 }

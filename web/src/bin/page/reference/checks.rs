@@ -170,21 +170,30 @@ fn worked(check: &Check) -> impl IntoView + use<> {
     let walk = &check.walk;
     let width = walk.algorithm.width;
     let layout = &check.kind.frame.layout;
+    let level = |step: &Step| if step.bit { '1' } else { '0' };
     let row = |steps: &[Step]| {
-        let bits: String = steps
-            .iter()
-            .map(|step| if step.bit { '1' } else { '0' })
-            .collect();
+        let bits: String = steps.iter().map(level).collect();
         let byte = u64::from_str_radix(&bits, 2)
             .ok()
             .filter(|_| steps.len() == ROW);
-        let field = steps.first().and_then(|step| layout.field_at(step.at));
-        let class = field.map_or("none", |field| field.row.role.class().name());
+        // Each bit in the colour of its field.
+        let class = |step: &Step| {
+            let field = layout.field_at(step.at);
+            field.map_or("none", |field| field.row.role.class().name())
+        };
+        let coloured: Vec<_> = steps
+            .chunk_by(|one, next| class(one) == class(next))
+            .map(|run| {
+                let class = run.first().map_or("none", class);
+                let bits: String = run.iter().map(level).collect();
+                view! { <span class=format!("name {class}")>{bits}</span> }
+            })
+            .collect();
         let after = steps.last().map_or(walk.start, |step| step.register);
         view! {
             <tr>
                 <td>{steps.first().map(|step| step.at)}</td>
-                <td class=format!("name {class}")>{bits}</td>
+                <td>{coloured}</td>
                 <td>{byte.map(|byte| hex(byte, 8))}</td>
                 <td><b>{register(after, width)}</b></td>
             </tr>

@@ -49,7 +49,7 @@ impl Facts {
         Self {
             wires: match link {
                 Link::Clocked => "clock and data",
-                Link::Polled => "serial, answers a host",
+                Link::Polled => "serial, asked",
                 Link::Stream => "serial, unasked",
             },
             length: main.map(Kind::length).unwrap_or_default(),

@@ -24,9 +24,15 @@ pub(super) fn Frames(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl In
         }
         false => "Bits are counted from 0 in the order in which they are sent.",
     };
-    let frames = kinds.get_value().into_iter();
+    let kinds = kinds.get_value();
+    // The head of the page has drawn the only one.
+    let is_drawn = kinds.len() > 1;
+    let frames = kinds.into_iter();
     let frames: Vec<_> = frames
-        .map(|kind| view! { <Frame profile=profile kind=kind /> })
+        .map(|kind| {
+            let drawn = is_drawn.then(|| strip(&kind).into_any());
+            view! { <Frame kind=kind drawn=drawn /> }
+        })
         .collect();
     view! {
         <Part profile=profile section=Section::Frames>
@@ -38,16 +44,12 @@ pub(super) fn Frames(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl In
 
 /// One kind of frame.
 #[component]
-fn Frame(profile: Profile, kind: Kind) -> impl IntoView {
+fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
     let goes = match kind.frame.direction {
         Direction::Sent => "the master sends",
         Direction::Received => "the encoder sends",
     };
-    let title = match (kind.frame.direction, profile.is_serial()) {
-        // The title of a request is its bytes, of a reply what the layout's table says.
-        (Direction::Sent, _) | (_, true) => kind.frame.title.clone(),
-        (Direction::Received, false) => kind.frame.layout.layout.title(),
-    };
+    let title = kind.frame.title.clone();
     let caption = format!("Fields of {title}, in the order in which they are sent");
     let notes = kind.notes();
     let fields: Vec<Field> = kind.frame.layout.fields().cloned().collect();
@@ -57,7 +59,6 @@ fn Frame(profile: Profile, kind: Kind) -> impl IntoView {
         .map(|(field, note)| view! { <Row kind=kind.clone() field=field note=note /> })
         .collect();
     let explainer = kind.explainer();
-    let drawn = strip(&kind);
     view! {
         <section class="kind" aria-label=title.clone()>
             <h3>
