@@ -154,7 +154,7 @@ fn facts(crc: Algorithm) -> impl IntoView {
         ("result reflected", word(crc.refout).to_owned()),
         ("xorout", format!("0x{}", hex(crc.xorout, crc.width))),
         (
-            "of “123456789”",
+            "check of “123456789”",
             format!(
                 "0x{}",
                 hex(crc.compute(sample, Span::new(0, sample.len())), crc.width)
@@ -201,13 +201,14 @@ fn worked(check: &Check) -> impl IntoView + use<> {
     };
     let rows: Vec<_> = walk.steps.chunks(ROW).map(row).collect();
     let last = walk.steps.last().map_or(walk.start, |step| step.register);
-    let mut ending = format!("{} ", register(last, width));
+    let mut steps = String::new();
     if walk.algorithm.refout {
-        ending += "→ read backwards ";
+        steps += "→ read backwards ";
     }
     if walk.algorithm.xorout != 0 {
-        ending += "→ inverted ";
+        steps += "→ inverted ";
     }
+    let ending = (!steps.is_empty()).then(|| format!("{} {steps}", register(last, width)));
     let (begins, result) = (register(walk.start, width), register(walk.result, width));
     let good = walk.result == check.received;
     let verdict = match good {
@@ -230,7 +231,7 @@ fn worked(check: &Check) -> impl IntoView + use<> {
                 <tbody>{rows}</tbody>
             </table>
         </Scroll>
-        <p class="outcome">{ending} <b>{result}</b> " " {verdict}</p>
+        <p class="outcome">{ending} " " <b>{result}</b> " " {verdict}</p>
     }
 }
 

@@ -1,6 +1,6 @@
 //! What can be asked of an encoder, and the sequences that change it.
 
-use super::{Part, Scroll, book::Section};
+use super::{Part, Scroll, book::Section, kinds::Kind};
 use encoderscope::{
     explain::grouped,
     format::{Format, bus::Operation, rs485::Command, t485::Request},
@@ -64,6 +64,14 @@ pub(super) fn asked(profile: &Profile) -> Vec<Asked> {
         }
         _ => Vec::new(),
     }
+}
+
+/// What a request asks for.
+pub(super) fn asks_for(kind: &Kind) -> Option<&'static str> {
+    let byte = *kind.bits().bytes().first()?;
+    let mut all = asked(&kind.profile).into_iter();
+    let asked = all.find(|asked| !kind.is_reply() && asked.byte == byte)?;
+    Some(asked.title)
 }
 
 #[component]

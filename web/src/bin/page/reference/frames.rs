@@ -3,6 +3,7 @@
 use super::{
     Part, Scroll,
     book::{Mark, Section, link},
+    commands,
     kinds::{self, Kind, Run},
 };
 use crate::app::App;
@@ -50,6 +51,7 @@ fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
         Direction::Received => "the encoder sends",
     };
     let title = kind.frame.title.clone();
+    let asks = commands::asks_for(&kind).map(|asks| format!("{asks}; "));
     let caption = format!("Fields of {title}, in the order in which they are sent");
     let notes = kind.notes();
     let fields: Vec<Field> = kind.frame.layout.fields().cloned().collect();
@@ -63,7 +65,7 @@ fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
         <section class="kind" aria-label=title.clone()>
             <h3>
                 {title.clone()}
-                <small>{goes} " " {kind.length()}</small>
+                <small>{asks} {goes} " " {kind.length()}</small>
             </h3>
             {drawn}
             <Scroll label=caption.clone()>
@@ -171,7 +173,8 @@ fn Row(kind: Kind, field: Field, note: Note) -> impl IntoView {
         view! { <div class="doc">{word} " " {range(first, last)}</div> }
     });
     let says = match note.text.is_empty() {
-        true => note.raw.to_string(),
+        // What only frames is a pattern.
+        true => format!("{:0width$b}", note.raw, width = field.width as usize),
         false => note.text,
     };
     let class = field.row.role.class().name();
