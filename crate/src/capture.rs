@@ -44,8 +44,7 @@ pub use changes::Changes;
 pub use extraction::Extraction;
 pub use reader::Reader;
 pub use recording::{Kind, Named, Options, Recording, Unreadable, sniff};
-pub(crate) use violation::{Duration, Frequency};
-pub use violation::{Violation, ViolationKind};
+pub use violation::{Duration, Frequency, Violation, ViolationKind};
 pub(crate) use wires::choose;
 pub use wires::{Change, Reason, Signal, Use, Wires};
 

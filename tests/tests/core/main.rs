@@ -33,6 +33,7 @@ mod laws_ssi;
 mod layouts;
 mod own;
 mod pastes;
+mod reference;
 mod rivals;
 mod sequences;
 mod sessions;

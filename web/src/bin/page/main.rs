@@ -26,6 +26,7 @@ mod log;
 mod plot;
 mod ports;
 mod profile_editor;
+mod reference;
 mod setting;
 mod standstill;
 mod theme;
