@@ -188,12 +188,13 @@ fn Parameters(profile: Profile) -> impl IntoView {
     let both = limits.angle + limits.turns > limits.together && limits.turns > 0;
     view! {
         <Part profile=profile section=Section::Parameters>
+            <p class="hint">
+                "Their names in links; the same on the command line, and in JavaScript in camelCase."
+                {both.then(|| format!(" Angle and turns have at most {} bits together.", limits.together))}
+            </p>
             <Scroll label="Parameters".to_owned()>
                 <table class="parameters">
-                    <caption>
-                        "Their names in links; the same on the command line, and in JavaScript in camelCase."
-                        {both.then(|| format!(" Angle and turns have at most {} bits together.", limits.together))}
-                    </caption>
+                    <caption class="unseen">"Parameters"</caption>
                     <thead>
                         <tr>
                             <th scope="col">"name"</th>
