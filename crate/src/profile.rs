@@ -143,7 +143,7 @@ const PARAMETERS: &[Parameter] = &[
         set: |p, text| {
             Command::parse(text)
                 .map(|value| p.command = value)
-                .ok_or_else(|| format!("{text:?} is no command; known: 0 1 d s t"))
+                .ok_or_else(|| format!("\"{text}\" is no command; known: 0 1 d s t"))
         },
     },
     Parameter {
@@ -215,12 +215,13 @@ const PARAMETERS: &[Parameter] = &[
 ];
 
 fn chosen<T: Choice>(text: &str) -> Result<T, String> {
-    T::of_word(text).ok_or_else(|| format!("{text:?} is not known; known: {}", T::WORDS.join(" ")))
+    T::of_word(text)
+        .ok_or_else(|| format!("\"{text}\" is not known; known: {}", T::WORDS.join(" ")))
 }
 
 fn number(text: &str) -> Result<u32, String> {
     text.parse()
-        .map_err(|_| format!("{text:?} is not a whole number"))
+        .map_err(|_| format!("\"{text}\" is not a whole number"))
 }
 
 impl Profile {
@@ -306,7 +307,7 @@ impl Profile {
                 .ok_or_else(|| {
                     error(
                         "format",
-                        format!("{name:?} is not known; known: {}", Format::names()),
+                        format!("\"{name}\" is not known; known: {}", Format::names()),
                     )
                 })?
                 .default_profile(),
