@@ -114,6 +114,11 @@ value_from! {
     i64 => |value| Self::Int(value.into());
     u64 => |value| Self::Int(value.into());
     usize => |value| Self::Int(value as i128);
+    // JSON has no other numbers.
+    f64 => |value| match value.is_finite() {
+        true => Self::Decimal(value.to_string()),
+        false => Self::Null,
+    };
     String => |value| Self::Text(value);
     &str => |value| Self::Text(value.to_string());
     Record => |value| Self::Record(value);

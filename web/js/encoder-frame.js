@@ -1,13 +1,15 @@
 // The custom element: import it, and every <encoder-frame> shows its frame. Until its WASM is
 // there, and where that is not allowed, the page shows what stands inside the element.
 import init, { Paper, parameters } from '../pkg/encoder-frame.js';
-import css from './encoder-frame/style.css?element';
+import css from 'virtual:encoder-frame-style';
 import { words } from './encoder-frame/words.js';
 
 // Importing it where there are no elements, as when pages are rendered by Node, does nothing.
 const { HTMLElement = class {}, customElements } = globalThis;
 
-const OWN = ['frame', 'direction', 'checks', 'readonly', 'lang'];
+// What changes the frame, beside the parameters of its profile, and what only its looks.
+const CONTENT = ['frame', 'direction'];
+const LOOKS = ['checks', 'lang', 'readonly'];
 
 let sheet;
 
@@ -32,7 +34,7 @@ const title = (note) => note.name.replaceAll('_', ' ');
 
 export class EncoderFrame extends HTMLElement {
   static get observedAttributes() {
-    return [...parameters().split(' '), ...OWN];
+    return [...parameters().split(' '), ...CONTENT, ...LOOKS];
   }
 
   #paper;
@@ -46,28 +48,37 @@ export class EncoderFrame extends HTMLElement {
   #cells = [];
   #rows = [];
   #verdict;
+  #toggle = make('input', { type: 'checkbox' });
 
   constructor() {
     super();
     this.attachShadow({ mode: 'open' }).adoptedStyleSheets = [style()];
+    this.#toggle.addEventListener('change', () => {
+      this.setAttribute('checks', this.#toggle.checked ? 'follow' : 'stay');
+      if (!this.#toggle.checked || this.#view.record.ok) return;
+      this.#paper.mend();
+      this.#changed();
+    });
   }
 
   connectedCallback() {
-    this.#build();
+    if (!this.#paper) this.#read();
   }
 
-  disconnectedCallback() {
-    this.#drop();
-  }
-
-  attributeChangedCallback() {
-    // One frame for all attributes that change together.
-    if (this.#late || !this.isConnected) return;
-    this.#late = true;
-    queueMicrotask(() => {
-      this.#late = false;
-      if (this.isConnected) this.#build();
-    });
+  attributeChangedCallback(name) {
+    if (!this.#paper) return;
+    if (name === 'checks') {
+      this.#toggle.checked = this.checks === 'follow';
+    } else if (LOOKS.includes(name)) {
+      this.#build();
+    } else if (!this.#late) {
+      // One frame for all attributes that change together.
+      this.#late = true;
+      queueMicrotask(() => {
+        this.#late = false;
+        this.#read();
+      });
+    }
   }
 
   /** The frame as it is now, in digits; setting it sets the attribute. */
@@ -101,31 +112,30 @@ export class EncoderFrame extends HTMLElement {
     return this.getAttribute('checks') === 'stay' ? 'stay' : 'follow';
   }
 
-  #drop() {
-    this.#paper?.free();
-    this.#paper = this.#view = undefined;
-  }
-
   #changed() {
     this.#show();
     this.dispatchEvent(new CustomEvent('change', { bubbles: true, composed: true, detail: this.record }));
   }
 
-  #build() {
-    this.#drop();
-    this.#words = words(this.lang || this.closest('[lang]')?.lang);
+  /** Makes the frame that the attributes say. */
+  #read() {
     const pairs = parameters()
       .split(' ')
       .filter((name) => this.hasAttribute(name))
       .flatMap((name) => [name, this.getAttribute(name)]);
     const direction = this.getAttribute('direction') ?? '';
+    this.#paper?.free();
     this.#paper = new Paper(pairs.join('\0'), this.getAttribute('frame') ?? undefined, direction);
+    this.#build();
+  }
+
+  #build() {
     const view = JSON.parse(this.#paper.view());
+    this.#view = undefined;
+    this.#words = words(this.lang || this.closest('[lang]')?.lang);
     if (view.error) {
-      this.shadowRoot.replaceChildren(
-        make('slot'),
-        make('p', { className: 'box wrong', role: 'alert' }, view.error),
-      );
+      const wrong = make('p', { className: 'box wrong', role: 'alert' }, view.error);
+      this.shadowRoot.replaceChildren(make('slot'), wrong);
       return;
     }
     const notes = view.notes;
@@ -148,7 +158,10 @@ export class EncoderFrame extends HTMLElement {
     bits.addEventListener('keydown', (event) => this.#walk(event));
     const fields = make('ul', { className: 'fields', ariaLabel: this.#words.fields }, ...this.#rows.map((row) => row.item));
     const box = make('div', { className: 'box' }, make('p', { className: 'title' }, view.title), bits);
-    if (!this.readOnly) box.append(this.#toggle());
+    this.#toggle.checked = this.checks === 'follow';
+    if (!this.readOnly) {
+      box.append(make('label', { className: 'checks' }, this.#toggle, this.#words.follow));
+    }
     box.append(this.#verdict, fields);
     box.addEventListener('pointerleave', () => this.#light());
     box.addEventListener('focusout', () => this.#light());
@@ -197,14 +210,6 @@ export class EncoderFrame extends HTMLElement {
     );
     item.addEventListener('pointerenter', () => this.#light(index));
     return { item, says, fault, bits };
-  }
-
-  #toggle() {
-    const box = make('input', { type: 'checkbox', checked: this.checks === 'follow' });
-    box.addEventListener('change', () => {
-      this.setAttribute('checks', box.checked ? 'follow' : 'stay');
-    });
-    return make('label', { className: 'checks' }, box, this.#words.follow);
   }
 
   /** Writes what can change while bits do: elements stay, and so does the focus. */

@@ -225,7 +225,7 @@ impl Reader<'_> {
                 let number = whole.map(Value::Int);
                 let number = number.or_else(|| {
                     let number = word.parse().ok().filter(|number: &f64| number.is_finite());
-                    number.map(|number| Value::Decimal(number.to_string()))
+                    number.map(Value::from)
                 });
                 match number {
                     Some(number) => number,
