@@ -1,5 +1,5 @@
 # Everything that is missing is installed by the scripts; what they may not install they name.
-.PHONY: serve test fuzz dist fmt clean
+.PHONY: serve test fuzz dist pack docs fmt clean
 
 serve: dist
 	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
@@ -13,6 +13,12 @@ fuzz:
 
 dist:
 	@web/build.sh
+
+pack:
+	@web/package.sh
+
+docs: dist
+	@docs/build.sh
 
 fmt:
 	@cargo fmt

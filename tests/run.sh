@@ -21,6 +21,7 @@ cargo fmt --check
 say "lints"
 cargo clippy -q -p encoderscope -p encoderscope-tests --all-targets -- -D warnings
 wasm_clippy -q -p encoderscope-web --bins -- -D warnings
+wasm_clippy -q -p encoderscope-web --bin element --no-default-features --features element -- -D warnings
 RUSTDOCFLAGS="-D warnings" cargo doc -q --no-deps -p encoderscope
 
 say "the core, native"
@@ -33,3 +34,6 @@ say "the page"
 web/build.sh
 cargo build -q -p encoderscope-tests --bin pty-encoder
 tests/page/run.sh
+
+say "the npm package, the custom element and the documents"
+tests/package/run.sh

@@ -5,31 +5,59 @@ cd "$(dirname "$0")/.."
 source web/toolchain.sh
 
 say "building the core and the page"
-wasm_cargo build --profile wasm -p encoderscope-web --bins
-built=$wasm_target_dir/$wasm_target/wasm
+wasm_cargo build --profile wasm -p encoderscope-web --bin page --bin module
+say "building the custom element"
+wasm_cargo build --profile element -p encoderscope-web --bin element --no-default-features --features element
 
 # What rustc and wasm-bindgen emit; more would shut browsers out.
 features=(--enable-bulk-memory --enable-multivalue --enable-mutable-globals
   --enable-nontrapping-float-to-int --enable-reference-types --enable-sign-ext)
 
-# One WASM file: its cargo name, the name it is imported by.
+# One WASM file: its cargo profile and name, the name it is imported by, how it is optimised.
 bind() {
-  local from=$built/$1.wasm to=web/pkg/$2_bg.wasm
+  local from=$wasm_target_dir/$wasm_target/$1.wasm to=web/pkg/$2_bg.wasm
   [ "$to" -nt "$from" ] && return
   wasm-bindgen --target web --no-typescript --out-dir web/pkg/new --out-name "$2" "$from"
-  npx wasm-opt "${features[@]}" -O3 "web/pkg/new/$2_bg.wasm" -o "web/pkg/new/$2_bg.wasm"
+  npx wasm-opt "${features[@]}" "${@:3}" "web/pkg/new/$2_bg.wasm" -o "web/pkg/new/$2_bg.wasm"
   mv web/pkg/new/* web/pkg
 }
 mkdir -p web/pkg
-bind page page
-bind module encoderscope
+bind wasm/page page -O3
+bind wasm/module encoderscope -O3
+bind element/element encoder-frame -Oz --converge
 
-inputs=(index.html vite.config.js package-lock.json web/pkg web/js web/public web/style web/icon.svg)
-if [ ! -e dist/index.html ] || [ -n "$(find "${inputs[@]}" -newer dist/index.html -print -quit)" ]; then
+# Whether one of the paths is newer than the file, or there is no such file.
+outdated() { # file, paths
+  local file=$1; shift
+  [ ! -e "$file" ] || [ -n "$(find "$@" -newer "$file" -print -quit)" ]
+}
+
+brotli() {
+  node -e 'process.stdout.write(String(require("zlib").brotliCompressSync(require("fs").readFileSync(process.argv[1])).length))' "$1"
+}
+
+sources=(package-lock.json web/pkg/*.js web/pkg/*.wasm web/js web/public web/style)
+npm=web/pkg/npm
+if outdated $npm/encoder-frame.js web/modules.config.js "${sources[@]}"; then
+  say "bundling the modules"
+  npx vite build --config web/modules.config.js --logLevel warn
+fi
+
+# Every page of a document that shows a frame waits for it.
+most=60000
+size=$(($(brotli $npm/encoder-frame.js) + $(brotli $npm/encoder-frame_bg.wasm)))
+if [ $size -gt $most ]; then
+  echo "The custom element has $size bytes with brotli, more than $most." >&2
+  # Debian's Rust does not optimise across crates.
+  [ $wasm_target_dir != target ] || exit 1
+fi
+
+if outdated dist/index.html index.html vite.config.js web/icon.svg "${sources[@]}" || outdated dist/encoder-frame.js $npm/encoder-frame.js; then
   say "bundling into dist/"
   npx vite build --logLevel warn
+  cp $npm/encoder-frame* dist
   for file in dist/assets/*.wasm; do
-    printf '%s: %s bytes, %s with brotli\n' "$file" "$(stat -c %s "$file")" \
-      "$(node -e 'process.stdout.write(String(require("zlib").brotliCompressSync(require("fs").readFileSync(process.argv[1])).length))' "$file")"
+    printf '%s: %s bytes, %s with brotli\n' "$file" "$(stat -c %s "$file")" "$(brotli "$file")"
   done
+  printf 'dist/encoder-frame.js and its WASM: %s bytes with brotli\n' $size
 fi

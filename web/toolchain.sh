@@ -69,7 +69,7 @@ wasm_cargo() {
   else
     # The library built above has no bitcode, which optimising across crates would need.
     PATH=/usr/bin:$PATH CARGO_BUILD_TARGET=$wasm_target CARGO_TARGET_DIR=$wasm_target_dir \
-      CARGO_PROFILE_WASM_LTO=off /usr/bin/cargo "$@"
+      CARGO_PROFILE_WASM_LTO=off CARGO_PROFILE_ELEMENT_LTO=off /usr/bin/cargo "$@"
   fi
 }
 

@@ -18,11 +18,17 @@ use alloc::{
 use core::fmt;
 use crc::{Crc, NoTable};
 
+/// How checksums are looked up.
+#[cfg(not(feature = "small"))]
+type Lookup = crc::Table<1>;
+#[cfg(feature = "small")]
+type Lookup = NoTable;
+
 /// The longest checked run in bytes that does not consist of whole bytes: that of the longest
 /// layout a user may write.
 const LONGEST: usize = 32;
 
-static CRC8_97: Crc<u8> = Crc::<u8>::new(&X97);
+static CRC8_97: Crc<u8, Lookup> = Crc::<u8, Lookup>::new(&X97);
 
 /// x⁸+x⁷+x⁴+x²+x+1.
 const X97: crc::Algorithm<u8> = crc::Algorithm {
@@ -36,7 +42,7 @@ const X97: crc::Algorithm<u8> = crc::Algorithm {
     residue: 0,
 };
 
-static CRC8_XOR: Crc<u8> = Crc::<u8>::new(&XOR);
+static CRC8_XOR: Crc<u8, Lookup> = Crc::<u8, Lookup>::new(&XOR);
 
 /// x⁸+1.
 const XOR: crc::Algorithm<u8> = crc::Algorithm {
@@ -50,7 +56,7 @@ const XOR: crc::Algorithm<u8> = crc::Algorithm {
     residue: 0,
 };
 
-static CRC6_BISS: Crc<u8> = Crc::<u8>::new(&BISS);
+static CRC6_BISS: Crc<u8, Lookup> = Crc::<u8, Lookup>::new(&BISS);
 
 /// x⁶+x+1, inverted.
 const BISS: crc::Algorithm<u8> = crc::Algorithm {
@@ -64,7 +70,7 @@ const BISS: crc::Algorithm<u8> = crc::Algorithm {
     residue: 0,
 };
 
-static CRC16_8005: Crc<u16> = Crc::<u16>::new(&crc::CRC_16_UMTS);
+static CRC16_8005: Crc<u16, Lookup> = Crc::<u16, Lookup>::new(&crc::CRC_16_UMTS);
 
 /// How a check field is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -68,7 +68,7 @@ pub fn parse(code: &str) -> Result<Model, ModelError> {
     let wrong = |position: usize| ModelError {
         position,
         message: format!(
-            "{:?} is not a {}",
+            "\"{}\" is not a {}",
             parts.get(position - 1).copied().unwrap_or(""),
             PARTS
                 .get(position - 1)
@@ -138,8 +138,9 @@ fn diameter(text: &str, suffix: char) -> Option<u32> {
 
 /// `24BM` → 24 bits per turn and 16 bits of turns.
 fn resolution(text: &str) -> Option<(u32, u32)> {
-    let digits = text.trim_end_matches(|letter: char| letter.is_ascii_alphabetic());
-    let turns = match &text[digits.len()..] {
+    let letters = text.trim_start_matches(|letter: char| letter.is_ascii_digit());
+    let digits = text.strip_suffix(letters)?;
+    let turns = match letters {
         "" | "S" => 0,
         "M" | "BM" | "FM" => 16,
         _ => return None,

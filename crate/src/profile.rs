@@ -190,7 +190,7 @@ impl Profile {
                 .ok_or_else(|| {
                     error(
                         "format",
-                        format!("{name:?} is not known; known: {}", Format::names()),
+                        format!("\"{name}\" is not known; known: {}", Format::names()),
                     )
                 })?
                 .default_profile(),

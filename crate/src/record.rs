@@ -33,8 +33,8 @@ pub enum Value {
     Bool(bool),
     /// A whole number.
     Int(i128),
-    /// A number with digits behind the point.
-    Float(f64),
+    /// A number with digits behind the point, as JSON writes it.
+    Decimal(String),
     /// Text.
     Text(String),
     /// Values in order.
@@ -114,7 +114,11 @@ value_from! {
     i64 => |value| Self::Int(value.into());
     u64 => |value| Self::Int(value.into());
     usize => |value| Self::Int(value as i128);
-    f64 => |value| Self::Float(value);
+    // JSON has no other numbers.
+    f64 => |value| match value.is_finite() {
+        true => Self::Decimal(value.to_string()),
+        false => Self::Null,
+    };
     String => |value| Self::Text(value);
     &str => |value| Self::Text(value.to_string());
     Record => |value| Self::Record(value);
@@ -144,7 +148,7 @@ impl fmt::Display for Value {
             Self::Null => f.write_str("null"),
             Self::Bool(value) => write!(f, "{value}"),
             Self::Int(value) => write!(f, "{value}"),
-            Self::Float(value) => write!(f, "{value}"),
+            Self::Decimal(digits) => f.write_str(digits),
             Self::Text(text) => quote(text, f),
             Self::List(values) => {
                 f.write_str("[")?;
@@ -194,8 +198,17 @@ fn useful_digits(bits: u32) -> u32 {
     (bits / 3).clamp(4, 12)
 }
 
-fn scaled(value: Option<i32>) -> Option<f64> {
-    value.map(|value| f64::from(value) / 10.0)
+/// Digits with a point without the zeros at their end.
+fn decimal(digits: &str) -> Value {
+    Value::Decimal(digits.trim_end_matches('0').trim_end_matches('.').into())
+}
+
+fn scaled(value: Option<i32>) -> Option<Value> {
+    value.map(|tenths| {
+        let sign = if tenths < 0 { "-" } else { "" };
+        let size = tenths.unsigned_abs();
+        decimal(&format!("{sign}{}.{}", size / 10, size % 10))
+    })
 }
 
 impl Frame<'_> {
@@ -219,11 +232,9 @@ impl Frame<'_> {
             .with("angle", values.angle)
             .with(
                 "degrees",
-                values.angle.and_then(|angle| {
-                    degrees_text(angle, bits, useful_digits(bits))
-                        .parse::<f64>()
-                        .ok()
-                }),
+                values
+                    .angle
+                    .map(|angle| decimal(&degrees_text(angle, bits, useful_digits(bits)))),
             )
             .with("error", values.error)
             .with("warning", values.warning)

@@ -12,9 +12,11 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+mod digits;
 mod entry;
 mod kind;
 
+pub use digits::DigitsError;
 pub use entry::Refusal;
 pub use kind::FrameKind;
 

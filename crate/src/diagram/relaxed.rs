@@ -223,7 +223,10 @@ impl Reader<'_> {
                     None => word.parse().ok(),
                 };
                 let number = whole.map(Value::Int);
-                let number = number.or_else(|| word.parse().ok().map(Value::Float));
+                let number = number.or_else(|| {
+                    let number = word.parse().ok().filter(|number: &f64| number.is_finite());
+                    number.map(Value::from)
+                });
                 match number {
                     Some(number) => number,
                     None => {

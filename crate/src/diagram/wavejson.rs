@@ -217,7 +217,7 @@ fn row(record: &Record, wave: &str) -> Result<Row, Unreadable> {
     let scaled = |name: &str, usual: f64| {
         let number = match record.find(name) {
             Some(Value::Int(number)) => *number as f64,
-            Some(Value::Float(number)) => *number,
+            Some(Value::Decimal(digits)) => digits.parse().unwrap_or(usual),
             _ => usual,
         };
         (number * PERIOD as f64) as i64

@@ -347,7 +347,7 @@ fn judge_check(written: &Written, names: &[&str], index: usize) -> Result<(), St
         None => Ok(other),
         Some(name) => {
             let found = names.iter().position(|known| known == name);
-            found.ok_or_else(|| format!("no field is called {name:?}"))
+            found.ok_or_else(|| format!("no field is called \"{name}\""))
         }
     };
     let first = place(&field.from, 0)?;

@@ -82,7 +82,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         set: |p, text| {
             Command::parse(text)
                 .map(|value| p.command = value)
-                .ok_or_else(|| format!("{text:?} is no command; known: 0 1 d s t"))
+                .ok_or_else(|| format!("\"{text}\" is no command; known: 0 1 d s t"))
         },
     },
     Parameter {
@@ -176,10 +176,11 @@ pub(super) const PARAMETERS: &[Parameter] = &[
 ];
 
 fn chosen<T: Choice>(text: &str) -> Result<T, String> {
-    T::of_word(text).ok_or_else(|| format!("{text:?} is not known; known: {}", T::WORDS.join(" ")))
+    T::of_word(text)
+        .ok_or_else(|| format!("\"{text}\" is not known; known: {}", T::WORDS.join(" ")))
 }
 
 fn number(text: &str) -> Result<u32, String> {
     text.parse()
-        .map_err(|_| format!("{text:?} is not a whole number"))
+        .map_err(|_| format!("\"{text}\" is not a whole number"))
 }

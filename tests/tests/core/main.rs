@@ -39,6 +39,7 @@ mod sequences;
 mod sessions;
 mod sheets;
 mod sketches;
+mod sketches_digits;
 mod standstill;
 mod streams;
 mod tables;

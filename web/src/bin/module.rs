@@ -33,7 +33,8 @@ impl Serialize for Plain<'_> {
             Value::Null => serializer.serialize_unit(),
             Value::Bool(value) => serializer.serialize_bool(*value),
             Value::Int(value) => serializer.serialize_f64(*value as f64),
-            Value::Float(value) => serializer.serialize_f64(*value),
+            // Decimals are made of digits.
+            Value::Decimal(digits) => serializer.serialize_f64(digits.parse().unwrap_or(f64::NAN)),
             Value::Text(text) => serializer.serialize_str(text),
             Value::List(values) => serializer.collect_seq(values.iter().map(Plain)),
             Value::Record(record) => {

@@ -164,9 +164,9 @@ impl FromStr for Framing {
             ("stream", _) => Ok(Self::Stream),
             (_, Some(digits)) => poll(digits)
                 .map(Self::Poll)
-                .map_err(|_| format!("{digits:?} is not a byte in hexadecimal")),
+                .map_err(|_| format!("\"{digits}\" is not a byte in hexadecimal")),
             _ => Err(format!(
-                "{text:?} is no way frames come; known: line biss stream poll:BYTE"
+                "\"{text}\" is no way frames come; known: line biss stream poll:BYTE"
             )),
         }
     }
@@ -264,7 +264,7 @@ fn number(text: &str) -> Result<u64, String> {
         Some(digits) => u64::from_str_radix(digits, 16),
         None => text.parse(),
     };
-    parsed.map_err(|_| format!("{text:?} is not a number"))
+    parsed.map_err(|_| format!("\"{text}\" is not a number"))
 }
 
 fn name(text: &str) -> Result<String, String> {
@@ -317,12 +317,12 @@ impl FromStr for Draft {
         let mut parts = text.split(':');
         let word = parts.next().unwrap_or_default();
         let kind = Kind::of_word(word)
-            .ok_or_else(|| format!("{word:?} is no kind; known: {}", Kind::WORDS.join(" ")))?;
+            .ok_or_else(|| format!("\"{word}\" is no kind; known: {}", Kind::WORDS.join(" ")))?;
         let (least, most) = kind.widths();
         let width = match parts.next() {
             Some(width) => width
                 .parse()
-                .map_err(|_| format!("{width:?} is not a number of bits"))?,
+                .map_err(|_| format!("\"{width}\" is not a number of bits"))?,
             None => least,
         };
         if !(least..=most).contains(&width) {
@@ -406,7 +406,7 @@ impl Draft {
         match known {
             true => Ok(()),
             false => Err(format!(
-                "{option:?} says nothing about {}",
+                "\"{option}\" says nothing about {}",
                 self.kind.name()
             )),
         }

@@ -1,0 +1,7 @@
+// The JavaScript module in Node, whose fetch reads no files.
+import { readFile } from 'node:fs/promises';
+import init, { decode, detect, encode, explain, formats, parseModel } from '../pkg/encoderscope.js';
+
+await init({ module_or_path: await readFile(new URL('../pkg/encoderscope_bg.wasm', import.meta.url)) });
+
+export { decode, detect, encode, explain, formats, parseModel };
