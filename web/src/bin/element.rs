@@ -40,6 +40,10 @@ pub struct Paper(Result<Sketch, String>);
 impl Paper {
     /// A frame in digits, or the example of the profile. In `profile` names and values take
     /// turns, with a NUL between; `direction` is empty where it is not known.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "wasm-bindgen lends no optional text"
+    )]
     #[wasm_bindgen(constructor)]
     pub fn new(profile: &str, frame: Option<String>, direction: &str) -> Self {
         Self(sketch(profile, frame.as_deref(), direction))
