@@ -70,6 +70,10 @@ impl FrameKind {
         Self {
             name: name.to_string(),
             title: match layout.layout.doc {
+                // It has the layout of an RS485 reply, and answers nothing.
+                _ if decoder.profile().format == Format::Period => {
+                    "Position and status, sent again and again".to_string()
+                }
                 [] => decoder.profile().title().to_string(),
                 _ => layout.layout.title(),
             },
