@@ -21,7 +21,7 @@ fn decoders() -> impl Iterator<Item = Decoder> {
 }
 
 fn read(format: &str, digits: &str) -> Result<Sketch, DigitsError> {
-    Sketch::of_digits(decoder(&[("format", format)]), digits, None)
+    Sketch::of_digits(decoder(&format!("format={format}")), digits, None)
 }
 
 fn digits_of(bits: Bits<'_>) -> String {
@@ -47,7 +47,7 @@ fn what_a_sketch_writes_is_read_again() {
 fn digits_of_all_kinds_say_the_same() {
     let bytes = [0x82, 0x00, 0x05, 0x80, 0x00, 0x60, 0x68];
     let line = digits_of(Bits::of_bytes(&bytes));
-    let decoder = decoder(&[("format", "biss-c"), ("angle-bits", "17")]);
+    let decoder = decoder("format=biss-c angle-bits=17");
     for text in [
         "82000580006068",
         " 82 00 05 80 00 60 68 ",
@@ -84,7 +84,7 @@ fn what_is_no_frame_is_refused() {
         Some(DigitsError::NoFrame(Why::Truncated { have: 3, need: 30 }))
     );
     let word = "0".repeat(48);
-    let sent = Sketch::of_digits(decoder(&[("format", "ssi")]), &word, Some(Direction::Sent));
+    let sent = Sketch::of_digits(decoder("format=ssi"), &word, Some(Direction::Sent));
     assert_eq!(sent.err(), Some(DigitsError::NoFrame(Why::NoFrame)));
     // Of endless text no endless frame is made.
     assert!(read("ssi", &"f".repeat(1_000_000)).is_ok_and(|sketch| sketch.bits().len() <= 1 << 14));
@@ -135,7 +135,7 @@ fn decimals_of_records_are_those_of_floats() {
             assert_eq!(degrees, Some(float.to_string()), "{angle} of {bits} bits");
         }
     }
-    let decoder = decoder(&[("format", "rs485"), ("command", "t")]);
+    let decoder = decoder("format=rs485 command=t");
     for tenths in [
         -32_768, -305, -300, -15, -10, -5, 0, 1, 10, 365, 400, 32_767,
     ] {
