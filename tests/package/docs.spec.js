@@ -15,7 +15,7 @@ test('the mdBook chapter on BiSS-C @book', async ({ page }) => {
   await page.goto(at('book/biss-c.html'));
   const element = page.locator('#biss-c');
   await expect(field(element, 'angle')).toContainText('180.0000°');
-  await expect(field(element, 'crc')).toContainText('computed 0x28');
+  await expect(field(element, 'crc')).toContainText('computed 0x34');
   for (const name of ['idle', 'ack', 'start', 'cds', 'turns', 'nError', 'nWarning', 'status']) {
     await expect(field(element, name)).toBeVisible();
   }

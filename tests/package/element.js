@@ -21,7 +21,7 @@ export { expect };
 
 /** A bare page with an element, and nothing else; gives the element. */
 export async function show(page, html) {
-  await page.goto('/bare.html');
+  await page.goto('/empty.html');
   await page.evaluate((html) => {
     document.body.innerHTML = html;
   }, html);

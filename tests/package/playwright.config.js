@@ -10,6 +10,7 @@ const serve = (port, folder, cors = '') => ({
 
 export default defineConfig({
   ...page,
+  testMatch: '*.spec.js',
   outputDir: `${top}/test-results`,
   use: { ...page.use, baseURL: 'http://localhost:8091' },
   webServer: [

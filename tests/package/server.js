@@ -9,18 +9,19 @@ const types = {
   '.css': 'text/css',
   '.html': 'text/html; charset=utf-8',
   '.js': 'text/javascript',
+  '.svg': 'image/svg+xml',
   '.wasm': 'application/wasm',
 };
 
 createServer(async (request, response) => {
   const { pathname } = new URL(request.url, 'http://localhost');
   const path = join(folder, normalize(decodeURIComponent(pathname)));
-  const type = types[extname(path)];
-  if (!type || !(await stat(path).catch(() => null))?.isFile()) {
-    response.writeHead(pathname === '/' ? 200 : 404).end();
+  if (!(await stat(path).catch(() => null))?.isFile()) {
+    // The first says that the server is there; the second is asked for by browsers alone.
+    response.writeHead(['/', '/favicon.ico'].includes(pathname) ? 204 : 404).end();
     return;
   }
   if (cors) response.setHeader('Access-Control-Allow-Origin', '*');
-  response.setHeader('Content-Type', type);
+  response.setHeader('Content-Type', types[extname(path)] ?? 'application/octet-stream');
   createReadStream(path).pipe(response);
 }).listen(Number(port), '127.0.0.1');

@@ -159,7 +159,7 @@ export class EncoderFrame extends HTMLElement {
     const fields = make('ul', { className: 'fields', ariaLabel: this.#words.fields }, ...this.#rows.map((row) => row.item));
     const box = make('div', { className: 'box' }, make('p', { className: 'title' }, view.title), bits);
     this.#toggle.checked = this.checks === 'follow';
-    if (!this.readOnly) {
+    if (!this.readOnly && notes.some((note) => note.class === 'check')) {
       box.append(make('label', { className: 'checks' }, this.#toggle, this.#words.follow));
     }
     box.append(this.#verdict, fields);
@@ -200,16 +200,17 @@ export class EncoderFrame extends HTMLElement {
       if (bit.doc) item.append(make('span', { className: 'doc' }, ` – ${bit.doc}`));
       return item;
     });
+    const list = make('ul', {}, ...bits);
     const width = note.spans.reduce((sum, span) => sum + span.len, 0);
     const item = make(
       'li',
       { className: `field ${note.class}` },
       name,
       make('small', {}, `${width} ${this.#words.bit}`),
-      make('div', {}, says, make('ul', {}, ...bits), fault, make('p', { className: 'doc' }, note.doc)),
+      make('div', {}, says, list, fault, make('p', { className: 'doc' }, note.doc)),
     );
     item.addEventListener('pointerenter', () => this.#light(index));
-    return { item, says, fault, bits };
+    return { item, says, list, fault, bits };
   }
 
   /** Writes what can change while bits do: elements stay, and so does the focus. */
@@ -220,12 +221,15 @@ export class EncoderFrame extends HTMLElement {
       cell.textContent = view.bits[at];
       cell.ariaLabel = [`${this.#words.bit} ${at}`, note && title(note), view.bits[at]].join(', ');
     });
-    this.#rows.forEach(({ item, says, fault, bits }, index) => {
+    this.#rows.forEach(({ item, says, list, fault, bits }, index) => {
       const note = view.notes[index];
       says.textContent = note.text;
+      // Bits that explain themselves say it again, and what to do.
+      says.hidden = note.bits.some((bit) => bit.set && bit.doc);
       fault.textContent = note.fault ?? '';
       item.classList.toggle('faulty', note.fault !== null);
       bits.forEach((bit, place) => (bit.hidden = !note.bits[place].set));
+      list.hidden = bits.every((bit) => bit.hidden);
     });
     const { ok, error, warning, degrees, turns, faults } = view.record;
     const said = ok
