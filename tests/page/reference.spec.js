@@ -23,6 +23,13 @@ const module = (page, profile, frame) =>
     [profile, frame],
   );
 
+/** Opens the page of a format, and waits until it is there. */
+const open = async (page, parameters) => {
+  await page.goto(`/#/reference?${parameters}`);
+  const format = new URLSearchParams(parameters).get('format');
+  await expect(at(page, 'reference-format')).toHaveAttribute('data-format', format);
+};
+
 const formats = async (page) => {
   await page.goto('/');
   return page.evaluate(async () => (await import('./encoderscope.js')).formats());
@@ -39,9 +46,8 @@ test('every format has the fields that the module explains, and its check worked
   const all = await formats(page);
   expect(all.length).toBe(10);
   for (const { format, title, profile } of all) {
-    await page.goto(`/#/reference?${query({ ...profile, format })}`);
+    await open(page, query({ ...profile, format }));
     const sheet = at(page, 'reference-format');
-    await expect(sheet).toHaveAttribute('data-format', format);
     await expect(sheet.locator('h1')).toHaveText(title);
     const rows = await columns(at(page, 'reference-row'));
     const frame = await frameOf(page.getByRole('link', { name: 'Take this frame apart' }));
@@ -72,8 +78,7 @@ test('every kind of frame is there, and its example is one', async ({ page }) =>
     'format=own&layout=rls-orbis-serial': ['request', 'reply'],
   };
   for (const [profile, expected] of Object.entries(kinds)) {
-    await page.goto(`/#/reference?${profile}`);
-    await expect(at(page, 'reference-format')).toBeVisible();
+    await open(page, profile);
     await expect.poll(async () => [...new Set((await columns(at(page, 'reference-row'))).map(({ kind }) => kind))]).toEqual(expected);
   }
   // The link of a kind opens its frame in the explainer.
@@ -126,6 +131,7 @@ test('all errata are reachable, each by a link of its own', async ({ page }) => 
 test('the overview leads to every format and to the layouts of other makers', async ({ page }) => {
   const all = await formats(page);
   await page.getByRole('link', { name: 'Reference' }).click();
+  await expect(page.locator('h1')).toHaveText('Reference');
   const entries = at(page, 'reference-entry');
   const listed = await entries.evaluateAll((rows) => rows.map((row) => row.dataset.format));
   expect(listed.filter((format) => format !== 'own')).toEqual(all.map(({ format }) => format));
@@ -138,7 +144,7 @@ test('the overview leads to every format and to the layouts of other makers', as
 });
 
 test('checks show their parameters and the whole table', async ({ page }) => {
-  await page.goto('/#/reference?format=rs485');
+  await open(page, 'format=rs485');
   const check = at(page, 'reference-check');
   await expect(check).toHaveCount(1);
   await expect(check).toContainText('0x97');
@@ -149,14 +155,14 @@ test('checks show their parameters and the whole table', async ({ page }) => {
   expect(cells.length).toBe(256);
   // One of those that are wrong in a manual.
   expect(cells[0xdc]).toBe('F1');
-  await page.goto('/#/reference?format=biss-c');
+  await open(page, 'format=biss-c');
   const six = await at(page, 'reference-table').locator('tbody td').allTextContents();
   expect([six.length, ...six.slice(0, 4)]).toEqual([64, '00', '03', '06', '05']);
   await expect(at(page, 'reference-check').locator('.worked tbody tr')).toHaveCount(6);
 });
 
 test('requests, sequences, status bits and times are those of the tables', async ({ page }) => {
-  await page.goto('/#/reference?format=t485&dialect=mpp');
+  await open(page, 'format=t485&dialect=mpp');
   const bytes = await at(page, 'reference-request').evaluateAll((rows) => rows.map((row) => Number(row.dataset.value)));
   expect(bytes).toEqual([0x02, 0x8a, 0x92, 0x1a, 0x32, 0xba, 0xc2, 0x62, 0xea]);
   await expect(page.locator('[data-testid=reference-request][data-value="194"]')).toContainText('yes');
@@ -165,18 +171,18 @@ test('requests, sequences, status bits and times are those of the tables', async
   const low = page.locator('[data-testid=reference-status][data-name="battery low"]');
   await expect(low).toContainText('replace the battery');
   await expect(low).toContainText('blinks');
-  await page.goto('/#/reference?format=bus&angle-bits=24&turns-bits=16');
+  await open(page, 'format=bus&angle-bits=24&turns-bits=16');
   await expect(page.locator('[data-testid=reference-time][data-name=suspend]')).toContainText('36 µs');
   const steps = page.locator('[data-testid=reference-sequence][data-value="set address"] tbody tr');
   await expect(steps).toHaveCount(12);
-  await page.goto('/#/reference?format=ssi');
+  await open(page, 'format=ssi');
   const clock = page.locator('[data-testid=reference-time][data-name=clock]');
   await expect(clock).toContainText('110 kHz…1.5 MHz, up to 10 MHz');
   await expect(clock).toContainText('MPP and PT, SSI timing');
 });
 
 test('printed, there is no navigation and no table is cut off', async ({ page }) => {
-  await page.goto('/#/reference?format=t485');
+  await open(page, 'format=t485');
   await expect(at(page, 'reference-row').first()).toBeVisible();
   await page.emulateMedia({ media: 'print' });
   await expect(page.getByRole('navigation')).toHaveCount(0);
@@ -202,7 +208,7 @@ for (const width of [390, 768]) {
 }
 
 test('the reference needs no mouse, and its tables name their rows and columns', async ({ page }) => {
-  await page.goto('/#/reference?format=biss-c');
+  await open(page, 'format=biss-c');
   await expect(at(page, 'reference-row').first()).toBeVisible();
   const nameless = await page.locator('.sheet table').evaluateAll((tables) =>
     tables.filter((table) => !table.caption?.textContent || [...table.querySelectorAll('th')].some((head) => !head.scope)).length,

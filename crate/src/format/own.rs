@@ -48,7 +48,7 @@ pub(super) const INTERVAL: u64 = 1_000;
 pub const SPEC: Spec = Spec {
     name: "own",
     title: "own layout",
-    about: "a layout that a user wrote",
+    about: "a layout that comes with the program, or that a user wrote",
     source: "the user",
     link: Link::Clocked,
     parameters: &["layout", "turns-code", "justify", "baud"],
