@@ -134,6 +134,26 @@ test('attributes that change are followed, and keep what they do not concern', a
   await expect(element.getByRole('alert')).toContainText('angle-bits: 99 is not in 1…64 of BiSS-C');
 });
 
+test('a frame that a script has set before the element was there', async ({ page }) => {
+  let open;
+  const gate = new Promise((resolve) => (open = resolve));
+  await page.route('**/encoder-frame_bg.wasm', async (route) => {
+    await gate;
+    await route.continue();
+  });
+  await page.goto('/empty.html', { waitUntil: 'commit' });
+  await page.waitForFunction(() => document.body);
+  await page.evaluate(() => {
+    const element = document.createElement('encoder-frame');
+    element.setAttribute('format', 't485');
+    element.frame = '02 20 b4 bd 1c 37';
+    document.body.append(element);
+  });
+  open();
+  await expect(bits(page.locator('encoder-frame'))).toHaveCount(48);
+  expect(await page.locator('encoder-frame').getAttribute('frame')).toBe('02 20 b4 bd 1c 37');
+});
+
 test('in Russian, with the terms of the field', async ({ page }) => {
   const element = await show(page, `<section lang="ru-RU">${BISS}</section>`);
   await expect(element.getByRole('button', { name: 'бит 24, angle, 1' })).toBeVisible();

@@ -62,6 +62,12 @@ export class EncoderFrame extends HTMLElement {
   }
 
   connectedCallback() {
+    // What was set before the element was defined hides the accessor.
+    if (Object.hasOwn(this, 'frame')) {
+      const digits = this.frame;
+      delete this.frame;
+      this.frame = digits;
+    }
     if (!this.#paper) this.#read();
   }
 

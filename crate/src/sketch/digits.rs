@@ -11,7 +11,7 @@ use crate::{
 use alloc::vec::Vec;
 use core::fmt;
 
-/// Longest frame that is written in digits, in bits: no format comes near it.
+/// Most digits that are read: no format's frame comes near it.
 const LONGEST: usize = 4096;
 
 /// Why digits are not read as a frame.
@@ -119,12 +119,13 @@ fn digits(text: &str, radix: u32) -> Result<Vec<u32>, DigitsError> {
         .chars()
         .filter(|letter| !letter.is_whitespace() && !matches!(letter, ':' | '-' | ',' | '_'));
     let digits = letters
-        .take(LONGEST)
+        .take(LONGEST + 1)
         .map(|letter| letter.to_digit(radix).ok_or(DigitsError::NoDigit(letter)))
         .collect::<Result<Vec<_>, _>>()?;
-    match digits.is_empty() {
-        true => Err(DigitsError::Empty),
-        false => Ok(digits),
+    match digits.len() {
+        0 => Err(DigitsError::Empty),
+        1..=LONGEST => Ok(digits),
+        _ => Err(DigitsError::NoFrame(Why::NoFrame)),
     }
 }
 
