@@ -5,7 +5,7 @@ use crate::bits::{above, low_byte, placed, slice};
 use alloc::vec::Vec;
 
 /// Bytes that are set aside at a time.
-const BLOCK: usize = 1 << 18;
+const BLOCK: usize = 256 * 1024;
 /// Bytes that a change takes at most: two numbers, of 64 bits and of a signal with its level.
 const LONGEST: usize = 12;
 

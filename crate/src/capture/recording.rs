@@ -12,7 +12,7 @@ use core::fmt;
 pub(super) const MOST_SIGNALS: usize = 1024;
 
 /// Bytes of text that are read at a time.
-const PIECE: usize = 1 << 20;
+const PIECE: usize = 1024 * 1024;
 
 /// What a recording is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
