@@ -172,6 +172,7 @@ test('the fallback stays beside the message where a frame is wrong', async ({ pa
   await wrong('format="t485" frame=""', 'frame: there are no digits');
   await wrong('format="t485" frame="1a 20 29"', /^frame: 24 bits are no frame of this profile/);
   await wrong('format="ssi" direction="sent"', 'direction: nothing is sent to such an encoder');
+  await wrong('format="ssi" direction="up"', 'direction: "up" is not known; known: sent received');
   await wrong('frame="1a"', /^format: is missing; known: ssi biss-c/);
   await wrong('format="own" layout="&lt;img src=x onerror=alert(1)>"', /^layout: a layout is TITLE/);
   const element = await show(page, `${BISS.replace('</', '<p>in print</p></')}`);

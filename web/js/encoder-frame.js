@@ -125,13 +125,11 @@ export class EncoderFrame extends HTMLElement {
 
   /** Makes the frame that the attributes say. */
   #read() {
-    const pairs = parameters()
-      .split(' ')
+    const pairs = [...parameters().split(' '), ...CONTENT]
       .filter((name) => this.hasAttribute(name))
       .flatMap((name) => [name, this.getAttribute(name)]);
-    const direction = this.getAttribute('direction') ?? '';
     this.#paper?.free();
-    this.#paper = new Paper(pairs.join('\0'), this.getAttribute('frame') ?? undefined, direction);
+    this.#paper = new Paper(pairs.join('\0'));
     this.#build();
   }
 

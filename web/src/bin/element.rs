@@ -15,7 +15,7 @@ use encoderscope::{
 };
 use wasm_bindgen::prelude::*;
 
-/// What stands between names and values that are handed over.
+/// What stands between names and values of attributes.
 const BREAK: char = '\0';
 
 /// The names of all parameters of a profile, with spaces between.
@@ -38,15 +38,11 @@ pub struct Paper(Result<Sketch, String>);
 
 #[wasm_bindgen]
 impl Paper {
-    /// A frame in digits, or the example of the profile. In `profile` names and values take
-    /// turns, with a NUL between; `direction` is empty where it is not known.
-    #[expect(
-        clippy::needless_pass_by_value,
-        reason = "wasm-bindgen lends no optional text"
-    )]
+    /// What attributes say: the parameters of a profile, a `frame` in digits or without one the
+    /// example, and its `direction`. Names and values take turns, with a NUL between.
     #[wasm_bindgen(constructor)]
-    pub fn new(profile: &str, frame: Option<String>, direction: &str) -> Self {
-        Self(sketch(profile, frame.as_deref(), direction))
+    pub fn new(attributes: &str) -> Self {
+        Self(sketch(attributes))
     }
 
     /// Turns a bit over; `checks` that `stay` are not computed again.
@@ -77,22 +73,30 @@ impl Paper {
     }
 }
 
-fn sketch(profile: &str, frame: Option<&str>, direction: &str) -> Result<Sketch, String> {
-    let mut words = profile.split(BREAK);
-    let pairs = core::iter::from_fn(|| Some((words.next()?, words.next()?)));
-    let profile = Profile::parse(pairs).map_err(|why| why.to_string())?;
+fn sketch(attributes: &str) -> Result<Sketch, String> {
+    let mut words = attributes.split(BREAK);
+    let pairs: Vec<_> = core::iter::from_fn(|| Some((words.next()?, words.next()?))).collect();
+    let find = |wanted: &str| {
+        pairs
+            .iter()
+            .find(|pair| pair.0 == wanted)
+            .map(|pair| pair.1)
+    };
+    let parameters = pairs.iter().copied();
+    let parameters = parameters.filter(|(name, _)| !matches!(*name, "frame" | "direction"));
+    let profile = Profile::parse(parameters).map_err(|why| why.to_string())?;
     let decoder = Decoder::new(profile).map_err(|why| why.to_string())?;
-    let direction = match direction {
-        "" => None,
-        "sent" => Some(Direction::Sent),
-        "received" => Some(Direction::Received),
-        _ => {
+    let direction = match find("direction") {
+        None => None,
+        Some("sent") => Some(Direction::Sent),
+        Some("received") => Some(Direction::Received),
+        Some(other) => {
             return Err(format!(
-                "direction: \"{direction}\" is not known; known: sent received"
+                "direction: \"{other}\" is not known; known: sent received"
             ));
         }
     };
-    match frame {
+    match find("frame") {
         Some(text) => {
             Sketch::of_digits(decoder, text, direction).map_err(|why| format!("frame: {why}"))
         }
