@@ -29,6 +29,9 @@
 //! ```
 
 mod burst;
+mod changes;
+mod extraction;
+mod reader;
 mod recording;
 pub mod samples;
 #[cfg(feature = "vcd")]
@@ -37,9 +40,11 @@ mod violation;
 pub mod wave;
 mod wires;
 
+pub use changes::Changes;
+pub use extraction::Extraction;
+pub use reader::Reader;
 pub use recording::{Kind, Named, Options, Recording, Unreadable, sniff};
-pub(crate) use violation::{Duration, Frequency};
-pub use violation::{Violation, ViolationKind};
+pub use violation::{Duration, Frequency, Violation, ViolationKind};
 pub(crate) use wires::choose;
 pub use wires::{Change, Reason, Signal, Use, Wires};
 

@@ -140,6 +140,8 @@ impl Dump {
     /// let starts: Vec<_> = dump.lines().map(|line| (line.start, line.time)).collect();
     /// assert_eq!(starts, [(0, Some(0.5)), (25, None)]);
     /// ```
+    ///
+    /// More of them can be added with [`Extend::extend`].
     #[must_use]
     pub fn of_lines(lines: impl IntoIterator<Item = (BitString, Option<f64>)>) -> Self {
         let mut dump = Self {
@@ -147,12 +149,7 @@ impl Dump {
             writing: Writing::captured(),
             ..Self::default()
         };
-        for (bits, time) in lines {
-            let len = bits.as_bits().len().min(LONGEST);
-            dump.data
-                .extend_from_slice(&bits.as_bits().bytes()[..len.div_ceil(8)]);
-            dump.close(len, time, None);
-        }
+        dump.extend(lines);
         dump
     }
 
@@ -331,6 +328,18 @@ impl Dump {
         }
         if direction.is_some() || !self.directions.is_empty() {
             self.directions.push(direction);
+        }
+    }
+}
+
+/// Adds lines to a dump of bit strings, such as [`Dump::of_lines`] makes.
+impl Extend<(BitString, Option<f64>)> for Dump {
+    fn extend<T: IntoIterator<Item = (BitString, Option<f64>)>>(&mut self, lines: T) {
+        for (bits, time) in lines {
+            let len = bits.as_bits().len().min(LONGEST);
+            let data = bits.as_bits().bytes().get(..len.div_ceil(8));
+            self.data.extend_from_slice(data.unwrap_or_default());
+            self.close(len, time, None);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::{
     bits::{self, Bits, Span},
+    format::{Format, bus::Operation, own::Own, rs485::Command, t485::Request},
     layout::{Active, Class, Coding, Covered, Field, Resolved, Role, Weight},
     reading::Fault,
 };
@@ -135,7 +136,7 @@ impl Resolved {
             Role::Speed => format!("{} rev/s", tenths()),
             Role::Temperature => format!("{} °C", tenths()),
             Role::Count => format!("{raw} counted"),
-            Role::Operation => format!("operation {raw}"),
+            Role::Operation => self.operation(raw),
             Role::Address => format!("device 0x{raw:02X}"),
             Role::MemoryAddress => format!("address 0x{raw:02X}"),
             Role::Crc | Role::Parity => self.check_text(field, bits),
@@ -154,6 +155,26 @@ impl Resolved {
             }
             _ => text,
         }
+    }
+
+    /// What a request asks for.
+    fn operation(&self, raw: u64) -> String {
+        let code = bits::low_byte(raw);
+        let profile = &self.shape.profile;
+        let known = match profile.format {
+            Format::Rs485 => Command::of_byte(code)
+                .map(|command| format!("‘{}’: {}", command.letter(), command.title())),
+            Format::T485 => Request::of_operation(code)
+                .map(|request| format!("0x{:02X}: {}", request.byte(), request.title())),
+            Format::Bus => Operation::of_code(code)
+                .map(|operation| format!("{code:02b}: {}", operation.title())),
+            _ => profile
+                .own
+                .and_then(Own::request)
+                .filter(|byte| *byte == code)
+                .map(|byte| format!("0x{byte:02X}: what the encoder answers to")),
+        };
+        known.unwrap_or_else(|| format!("operation {raw}, which is not known"))
     }
 
     fn check_text(&self, field: &Field, bits: Bits<'_>) -> String {

@@ -92,6 +92,10 @@ pub struct Spec {
     pub name: &'static str,
     /// The name for people.
     pub title: &'static str,
+    /// What it is, in a few words.
+    pub about: &'static str,
+    /// The manual it comes from, and the place in it.
+    pub source: &'static str,
     /// How frames come.
     pub link: Link,
     /// The names of the parameters that matter.

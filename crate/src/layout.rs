@@ -342,7 +342,10 @@ impl Layout {
     #[must_use]
     pub fn title(&self) -> String {
         let lines: Vec<&str> = self.doc.iter().map(|line| line.trim()).collect();
-        lines.join(" ").trim_end_matches('.').replace('`', "")
+        lines
+            .join(" ")
+            .trim_end_matches('.')
+            .replace(['`', '*'], "")
     }
 }
 

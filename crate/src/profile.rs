@@ -4,9 +4,12 @@
 //! camelCase in JavaScript. An omitted parameter takes its format's default.
 
 mod choice;
+mod parameter;
 
 pub(crate) use choice::choice;
 pub use choice::{Align, Choice, Code, Dialect, Justify, Marker, Parity, StatusActive, TurnsCode};
+
+use parameter::PARAMETERS;
 
 use crate::{
     format::{
@@ -97,133 +100,6 @@ fn error(name: &str, message: impl Into<String>) -> ProfileError {
     }
 }
 
-/// A parameter: its name, its words where it is not a number, and how it is written and read.
-struct Parameter {
-    name: &'static str,
-    words: &'static [&'static str],
-    show: fn(&Profile) -> Value,
-    set: fn(&mut Profile, &str) -> Result<(), String>,
-}
-
-const PARAMETERS: &[Parameter] = &[
-    Parameter {
-        name: "layout",
-        words: &[],
-        show: |p| p.own.map_or("", Own::short).into(),
-        set: |p, text| own::of(text).map(|own| own.fit(p)),
-    },
-    Parameter {
-        name: "angle-bits",
-        words: &[],
-        show: |p| p.angle_bits.into(),
-        set: |p, text| number(text).map(|value| p.angle_bits = value),
-    },
-    Parameter {
-        name: "turns-bits",
-        words: &[],
-        show: |p| p.turns_bits.into(),
-        set: |p, text| number(text).map(|value| p.turns_bits = value),
-    },
-    Parameter {
-        name: "status-bits",
-        words: &[],
-        show: |p| p.status_bits.into(),
-        set: |p, text| number(text).map(|value| p.status_bits = value),
-    },
-    Parameter {
-        name: "ack-bits",
-        words: &[],
-        show: |p| p.ack_bits.into(),
-        set: |p, text| number(text).map(|value| p.ack_bits = value),
-    },
-    Parameter {
-        name: "command",
-        words: &["0", "1", "d", "s", "t"],
-        show: |p| p.command.letter().to_string().into(),
-        set: |p, text| {
-            Command::parse(text)
-                .map(|value| p.command = value)
-                .ok_or_else(|| format!("\"{text}\" is no command; known: 0 1 d s t"))
-        },
-    },
-    Parameter {
-        name: "address",
-        words: &[],
-        show: |p| p.address.into(),
-        set: |p, text| number(text).map(|value| p.address = value),
-    },
-    Parameter {
-        name: "code",
-        words: Code::WORDS,
-        show: |p| p.code.word().into(),
-        set: |p, text| chosen(text).map(|value| p.code = value),
-    },
-    Parameter {
-        name: "align",
-        words: Align::WORDS,
-        show: |p| p.align.word().into(),
-        set: |p, text| chosen(text).map(|value| p.align = value),
-    },
-    Parameter {
-        name: "frame-bits",
-        words: &[],
-        show: |p| p.frame_bits.into(),
-        set: |p, text| number(text).map(|value| p.frame_bits = value),
-    },
-    Parameter {
-        name: "parity",
-        words: Parity::WORDS,
-        show: |p| p.parity.word().into(),
-        set: |p, text| chosen(text).map(|value| p.parity = value),
-    },
-    Parameter {
-        name: "turns-code",
-        words: TurnsCode::WORDS,
-        show: |p| p.turns_code.word().into(),
-        set: |p, text| chosen(text).map(|value| p.turns_code = value),
-    },
-    Parameter {
-        name: "status-active",
-        words: StatusActive::WORDS,
-        show: |p| p.status_active.word().into(),
-        set: |p, text| chosen(text).map(|value| p.status_active = value),
-    },
-    Parameter {
-        name: "dialect",
-        words: Dialect::WORDS,
-        show: |p| p.dialect.word().into(),
-        set: |p, text| chosen(text).map(|value| p.dialect = value),
-    },
-    Parameter {
-        name: "marker",
-        words: Marker::WORDS,
-        show: |p| p.marker.word().into(),
-        set: |p, text| chosen(text).map(|value| p.marker = value),
-    },
-    Parameter {
-        name: "baud",
-        words: &[],
-        show: |p| p.baud.into(),
-        set: |p, text| number(text).map(|value| p.baud = value),
-    },
-    Parameter {
-        name: "justify",
-        words: Justify::WORDS,
-        show: |p| p.justify.word().into(),
-        set: |p, text| chosen(text).map(|value| p.justify = value),
-    },
-];
-
-fn chosen<T: Choice>(text: &str) -> Result<T, String> {
-    T::of_word(text)
-        .ok_or_else(|| format!("\"{text}\" is not known; known: {}", T::WORDS.join(" ")))
-}
-
-fn number(text: &str) -> Result<u32, String> {
-    text.parse()
-        .map_err(|_| format!("\"{text}\" is not a whole number"))
-}
-
 impl Profile {
     /// What most formats have in common; a format's own default overrides it.
     #[must_use]
@@ -254,6 +130,13 @@ impl Profile {
     #[must_use]
     pub fn title(&self) -> &'static str {
         self.own.map_or(self.format.title(), Own::title)
+    }
+
+    /// The manual that describes the format, and the place in it.
+    #[must_use]
+    pub fn source(&self) -> &'static str {
+        let source = self.own.and_then(Own::source);
+        source.unwrap_or(self.format.spec().source)
     }
 
     /// How frames come.
@@ -386,6 +269,24 @@ impl Profile {
         known.map_or(&[], |known| known.words)
     }
 
+    /// What a parameter is, in a few words; empty where there is none of the name.
+    ///
+    /// ```
+    /// assert_eq!(encoderscope::profile::Profile::doc("angle-bits"), "bits per turn");
+    /// ```
+    #[must_use]
+    pub fn doc(name: &str) -> &'static str {
+        let known = PARAMETERS.iter().find(|known| known.name == name);
+        known.map_or("", |known| known.doc)
+    }
+
+    /// What each of a parameter's [words](Self::words) means.
+    #[must_use]
+    pub fn word_docs(name: &str) -> &'static [&'static str] {
+        let known = PARAMETERS.iter().find(|known| known.name == name);
+        known.map_or(&[], |known| known.docs)
+    }
+
     /// Whether `name`, in either spelling, names a parameter.
     #[must_use]
     pub fn knows(name: &str) -> bool {
@@ -407,6 +308,36 @@ impl Profile {
             .collect()
     }
 
+    /// The least and the greatest that a number of this profile's format can be; nothing for
+    /// words, and for what the format does not use.
+    ///
+    /// ```
+    /// use encoderscope::format::Format;
+    /// assert_eq!(Format::Bus.default_profile().range("address"), Some((0, 31)));
+    /// assert_eq!(Format::Ssi.default_profile().range("address"), None);
+    /// ```
+    #[must_use]
+    pub fn range(&self, name: &str) -> Option<(u32, u32)> {
+        let limits = self.format.limits();
+        let used = |range| self.format.parameters().contains(&name).then_some(range);
+        match name {
+            "angle-bits" => Some((1, limits.angle)),
+            "turns-bits" => Some((0, limits.turns)),
+            "status-bits" => used((0, 8)),
+            "ack-bits" => used((1, 64)),
+            "baud" => used((1, 50_000_000)),
+            "address" => used((0, 31)),
+            "frame-bits" => used((
+                match self.format {
+                    Format::SsiTree => ssi_tree::needed_bits(self),
+                    _ => limits.frame.0,
+                },
+                limits.frame.1,
+            )),
+            _ => None,
+        }
+    }
+
     /// Whether the widths fit the format.
     ///
     /// # Errors
@@ -423,29 +354,25 @@ impl Profile {
             });
         }
         let limits = self.format.limits();
-        let range = |name, value: u32, low: u32, high: u32| {
-            let used = matches!(name, "angle-bits" | "turns-bits")
-                || self.format.parameters().contains(&name);
-            if !used || (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(error(
+        let numbers = [
+            ("angle-bits", self.angle_bits),
+            ("turns-bits", self.turns_bits),
+            ("status-bits", self.status_bits),
+            ("ack-bits", self.ack_bits),
+            ("baud", self.baud),
+            ("address", self.address),
+            ("frame-bits", self.frame_bits),
+        ];
+        for (name, value) in numbers {
+            if let Some((low, high)) = self.range(name)
+                && !(low..=high).contains(&value)
+            {
+                return Err(error(
                     name,
                     format!("{value} is not in {low}…{high} of {}", self.format.title()),
-                ))
+                ));
             }
-        };
-        range("angle-bits", self.angle_bits, 1, limits.angle)?;
-        range("turns-bits", self.turns_bits, 0, limits.turns)?;
-        range("status-bits", self.status_bits, 0, 8)?;
-        range("ack-bits", self.ack_bits, 1, 64)?;
-        range("baud", self.baud, 1, 50_000_000)?;
-        range("address", self.address, 0, 31)?;
-        let shortest = match self.format {
-            Format::SsiTree => ssi_tree::needed_bits(self),
-            _ => limits.frame.0,
-        };
-        range("frame-bits", self.frame_bits, shortest, limits.frame.1)?;
+        }
         if self.angle_bits + self.turns_bits > limits.together {
             return Err(error(
                 "turns-bits",

@@ -74,6 +74,21 @@ pub enum Send {
     GetNew,
 }
 
+impl Send {
+    /// What is sent, in a few words.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Rs485(command) => command.title(),
+            Self::T485(request) => request.title(),
+            Self::Bus(operation) => operation.title(),
+            Self::Address(_) => Operation::SetAddress.title(),
+            Self::NewAddress => "set address, the new one",
+            Self::GetNew => "position and status, from the new address",
+        }
+    }
+}
+
 /// What must come back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expect {
@@ -85,6 +100,17 @@ pub enum Expect {
     Counts(u8),
     /// Nothing.
     Silence,
+}
+
+impl fmt::Display for Expect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reply => f.write_str("a good reply"),
+            Self::CountsRound => f.write_str("a good reply that counts the round"),
+            Self::Counts(count) => write!(f, "a good reply that counts {count}"),
+            Self::Silence => f.write_str("nothing"),
+        }
+    }
 }
 
 /// One command of a script.
@@ -129,6 +155,18 @@ pub enum Proof {
     Errors,
     /// The byte read last is the one that was written.
     Memory,
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Count => "the encoder has counted to the end",
+            Self::Angle => "the angle read last is 0, and was not before",
+            Self::Turns => "the turns read last are 0, and were not before",
+            Self::Errors => "no error is read any more",
+            Self::Memory => "the byte read last is the one that was written",
+        })
+    }
 }
 
 const fn step(send: Send, expect: Expect) -> Step {
@@ -244,7 +282,8 @@ impl Change {
     }
 
     /// The bytes of a step.
-    fn bytes(self, profile: &Profile, send: Send) -> Vec<u8> {
+    #[must_use]
+    pub fn bytes(self, profile: &Profile, send: Send) -> Vec<u8> {
         let own = crate::bits::low_byte(profile.address.into());
         let new = match self {
             Self::Address(address) => address,

@@ -44,3 +44,11 @@ export const expectOnlyLateFrames = async (page) =>
 /** Bytes are skipped only where a reply came so late that nobody waited for it any more. */
 export const expectOnlyLateBytes = async (page) =>
   expect(await number(page, 'bytes-skipped')).toBeLessThanOrEqual(64 * (await number(page, 'silent')));
+
+/** The file that a button gives: its name and its text. */
+export const download = async (page, id) => {
+  const [saved] = await Promise.all([page.waitForEvent('download'), at(page, id).click()]);
+  const chunks = [];
+  for await (const chunk of await saved.createReadStream()) chunks.push(chunk);
+  return { name: saved.suggestedFilename(), text: Buffer.concat(chunks).toString() };
+};

@@ -5,6 +5,7 @@
 //! for rows, or for something else altogether, while a large file is still being read.
 
 mod captured;
+mod capturing;
 mod export;
 mod judge;
 mod overview;
@@ -18,6 +19,7 @@ use crate::{
     message::{Explained, FromDesk, Marked, RowView, Selection, ToDesk, TraceView},
 };
 use captured::Captured;
+use capturing::{Framing, Tape};
 use encoderscope::{
     decode::Decoder,
     detect::Change,
@@ -81,6 +83,9 @@ struct State {
     done: bool,
     paper: Paper,
     sheet: Option<Sheet>,
+    /// The recording of clock and data, and whether it is being framed.
+    tape: Tape,
+    framing: Framing,
     captured: Captured,
     judge: Judge,
     shown: (Filter, Option<Order>),
@@ -120,6 +125,8 @@ impl Desk {
                 done: true,
                 paper: Paper::None,
                 sheet: None,
+                tape: Tape::None,
+                framing: Framing::Idle,
                 captured: Captured::default(),
                 judge: Judge::default(),
                 shown: (Filter::default(), None),
@@ -185,6 +192,7 @@ impl Desk {
             state.source = Some(source);
             state.name = name;
             state.origin = 0;
+            state.tape = Tape::None;
             state.judge = Judge::default();
             state.profile = link::profile(profile).ok();
         }
@@ -225,18 +233,6 @@ impl Desk {
         }
         self.state.borrow_mut().profile = Some(profile);
         self.begin();
-    }
-
-    /// Stops reading; what there is stays.
-    fn cancel(&self) {
-        let mut state = self.state.borrow_mut();
-        state.job += 1;
-        if let Paper::Coming(reader) = std::mem::take(&mut state.paper) {
-            state.paper = Paper::Whole(reader.finish());
-        }
-        state.finish();
-        drop(state);
-        self.tell(true);
     }
 
     /// Whether the work of a job is still wanted.

@@ -1,20 +1,18 @@
 //! A recording of a logic analyser, from its text to frames.
 
 use super::{
-    Capture, Change, Clocked, Clocking, Edge, Reason, Signal, Violation, Wire, Wires,
-    samples::Samples, wires::choose,
+    Clocked, Clocking, Extraction, Reader, Signal, Violation, Wires, extraction::MOST_FRAMES,
+    samples::Samples,
 };
 use crate::{decode::Decoder, profile::Profile};
-use alloc::{
-    string::{String, ToString},
-    vec::Vec,
-};
+use alloc::{string::String, vec::Vec};
 use core::fmt;
 
 /// Signals of a recording that are read.
 pub(super) const MOST_SIGNALS: usize = 1024;
-/// Frames of a recording that are kept.
-const MOST_FRAMES: usize = 200_000;
+
+/// Bytes of text that are read at a time.
+const PIECE: usize = 1024 * 1024;
 
 /// What a recording is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +45,8 @@ pub enum Unreadable {
     TooManySignals,
     /// More frames than are kept.
     TooManyFrames,
+    /// The changes need more than so many bytes.
+    TooManyChanges(usize),
     /// A signal that was asked for, and those there are.
     NoSuchSignal(String, Vec<String>),
     /// The time of a line cannot be read, or is out of all bounds.
@@ -81,6 +81,12 @@ impl fmt::Display for Unreadable {
             Self::TooManyFrames => write!(
                 f,
                 "more than {MOST_FRAMES} frames: export a shorter part of the recording"
+            ),
+            Self::TooManyChanges(room) => write!(
+                f,
+                "its changes of level need more than {} MB: export a shorter part of the \
+                 recording, or the clock and the data only",
+                room.div_ceil(1_000_000)
             ),
             Self::NoSuchSignal(name, known) => {
                 write!(f, "no signal {name:?}; there are: {}", known.join(", "))
@@ -165,7 +171,7 @@ pub fn sniff(head: &[u8]) -> Option<Kind> {
 }
 
 impl Recording {
-    /// Reads a whole recording.
+    /// Reads a whole recording; see [`Reader`] and [`Extraction`] for one that comes in pieces.
     ///
     /// # Errors
     ///
@@ -178,129 +184,16 @@ impl Recording {
         options: Options<'_>,
     ) -> Result<Self, Unreadable> {
         let title = decoder.profile().format.title();
-        let capture = Capture::new(decoder).ok_or(Unreadable::NotClocked(title))?;
-        let mut signals: Vec<Signal> = Vec::new();
-        let (mut finest, mut last) = (i64::MAX, None);
-        let named = pass(text, kind, options, &mut |change| {
-            if signals.len() <= change.signal {
-                signals.resize_with(change.signal.min(MOST_SIGNALS) + 1, || Signal::new(""));
-            }
-            if let Some(signal) = signals.get_mut(change.signal) {
-                signal.change(change.time, change.level);
-            }
-            if let Some(last) = last.replace(change.time).filter(|last| *last < change.time) {
-                finest = finest.min(change.time.saturating_sub(last));
-            }
-        })?;
-        signals.resize_with(named.names.len(), || Signal::new(""));
-        for (signal, name) in signals.iter_mut().zip(&named.names) {
-            signal.name.clone_from(name);
-            signal.finish(named.end);
+        if decoder.profile().format.timing().is_none() {
+            return Err(Unreadable::NotClocked(title));
         }
-        for other in &named.others {
-            if let Some(signal) = signals.get_mut(*other) {
-                *signal = Signal::new(&signal.name);
-            }
+        let mut reader = Reader::new(kind, options.sample)?;
+        for piece in text.chunks(PIECE) {
+            reader.push(piece)?;
         }
-        let find = |asked: Option<&str>| {
-            let Some(name) = asked else { return Ok(None) };
-            let found = signals.iter().position(|signal| signal.name == name);
-            let missing = || Unreadable::NoSuchSignal(name.to_string(), named.names.clone());
-            found.map(Some).ok_or_else(missing)
-        };
-        let asked = (find(options.clock)?, find(options.data)?);
-        let lives = signals.iter().filter(|signal| signal.lives()).count();
-        let mut wires = choose(&signals, asked).ok_or(Unreadable::Signals(lives.min(1)))?;
-        // What lies between two changes is a bound of what the recorder tells apart.
-        let clocking = match named.clocking {
-            Clocking::Timed(0) if finest < i64::MAX => Clocking::Timed(finest),
-            other => other,
-        };
-        let capture = capture.with_clocking(clocking);
-        let profile = capture.profile();
-        let mut frames;
-        let mut stray;
-        loop {
-            let mut low = 0usize;
-            (frames, stray) = extract(capture.clone(), &wires, named.end, &mut low, |sink| {
-                pass(text, kind, options, sink).map(|_| ())
-            })?;
-            let line = signals.get(wires.data.signal);
-            let lives = line.is_some_and(|line| line.edges > 0);
-            if wires.data.inverted || !lives || low * 2 <= frames.len() {
-                break;
-            }
-            wires.data.inverted = true;
-            let name = wires.data.name.clone();
-            wires.reasons.push(Reason::DataRestsLow(name));
-        }
-        Ok(Self {
-            signals,
-            wires,
-            clocking,
-            profile,
-            frames,
-            stray,
-        })
+        let changes = reader.finish()?;
+        let mut extraction = Extraction::new(&changes, decoder, options)?;
+        while extraction.step(&changes, usize::MAX)? {}
+        Ok(extraction.finish(&changes))
     }
-}
-
-type Sink<'a> = &'a mut dyn FnMut(Change);
-
-/// All changes of a recording.
-fn pass(
-    text: &[u8],
-    kind: Kind,
-    options: Options<'_>,
-    sink: Sink<'_>,
-) -> Result<Named, Unreadable> {
-    match kind {
-        Kind::Samples => {
-            let mut samples = Samples::new(options.sample);
-            samples.push(text, sink)?;
-            samples.finish(sink)
-        }
-        #[cfg(feature = "vcd")]
-        Kind::Vcd => super::vcd::read(text, sink),
-        #[cfg(not(feature = "vcd"))]
-        Kind::Vcd => Err(Unreadable::NoVcd),
-    }
-}
-
-/// The frames on two wires; counts those that the data line is low before.
-fn extract(
-    mut capture: Capture,
-    wires: &Wires,
-    end: i64,
-    low: &mut usize,
-    run: impl FnOnce(Sink<'_>) -> Result<(), Unreadable>,
-) -> Result<(Vec<Clocked>, Vec<Violation>), Unreadable> {
-    let mut frames = Vec::new();
-    let mut drain = |capture: &mut Capture, frames: &mut Vec<Clocked>| {
-        while let Some((frame, high)) = capture.next() {
-            *low += usize::from(!high);
-            // One more shows that there are too many.
-            if frames.len() <= MOST_FRAMES {
-                frames.push(frame);
-            }
-        }
-    };
-    run(&mut |change| {
-        for (wire, used) in [(Wire::Clock, &wires.clock), (Wire::Data, &wires.data)] {
-            if used.signal == change.signal {
-                capture.push(Edge {
-                    time: change.time,
-                    wire,
-                    level: change.level != used.inverted,
-                });
-            }
-        }
-        drain(&mut capture, &mut frames);
-    })?;
-    capture.finish(end);
-    drain(&mut capture, &mut frames);
-    if frames.len() > MOST_FRAMES {
-        return Err(Unreadable::TooManyFrames);
-    }
-    Ok((frames, capture.stray()))
 }

@@ -91,7 +91,13 @@ impl Samples {
     pub fn finish(mut self, sink: &mut dyn FnMut(Change)) -> Result<Named, Unreadable> {
         let line = core::mem::take(&mut self.line);
         self.line(&line, sink)?;
-        Ok(Named {
+        Ok(self.cut())
+    }
+
+    /// As [`Samples::finish`] where more text would come: a line that is not whole is left out.
+    #[must_use]
+    pub fn cut(self) -> Named {
+        Named {
             names: self.names(),
             others: self.others(),
             clocking: self
@@ -99,7 +105,7 @@ impl Samples {
                 .as_ref()
                 .map_or(Clocking::Counted, Table::clocking),
             end: self.time.unwrap_or(0),
-        })
+        }
     }
 
     /// Whether text that begins so is a recording.

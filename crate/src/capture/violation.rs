@@ -135,9 +135,13 @@ impl ViolationKind {
     }
 }
 
-/// A duration in the unit that suits it.
+/// A duration in picoseconds, written without its sign in the unit that suits it.
+///
+/// ```
+/// assert_eq!(encoderscope::capture::Duration(12_500_000).to_string(), "12.5 µs");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Duration(pub(crate) i64);
+pub struct Duration(pub i64);
 
 /// Writes `value / unit` with up to two decimals.
 fn decimal(f: &mut fmt::Formatter<'_>, value: i128, unit: i128) -> fmt::Result {
@@ -168,9 +172,13 @@ impl fmt::Display for Duration {
     }
 }
 
-/// A frequency in the unit that suits it.
+/// A frequency in hertz, written in the unit that suits it.
+///
+/// ```
+/// assert_eq!(encoderscope::capture::Frequency(1.5e6).to_string(), "1.5 MHz");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Frequency(pub(crate) f64);
+pub struct Frequency(pub f64);
 
 impl fmt::Display for Frequency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

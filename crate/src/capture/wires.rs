@@ -153,18 +153,18 @@ impl Signal {
         }
     }
 
-    /// Takes a change of this signal.
-    pub fn change(&mut self, time: i64, level: bool) {
-        let Some(before) = self.level.replace(level) else {
-            self.since = time;
-            return;
-        };
-        if before == level {
-            return;
+    /// Takes a level of this signal; whether it is the first one, or another one than before.
+    pub fn change(&mut self, time: i64, level: bool) -> bool {
+        match self.level.replace(level) {
+            Some(before) if before == level => return false,
+            Some(before) => {
+                self.edges += 1;
+                self.run(time, before);
+            }
+            None => {}
         }
-        self.edges += 1;
-        self.run(time, before);
         self.since = time;
+        true
     }
 
     /// Says when the recording ended.

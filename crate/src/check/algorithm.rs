@@ -2,6 +2,7 @@
 
 use super::{BISS, X97, XOR};
 use crate::bits::{self, Bits, Polynomial, Span};
+use alloc::vec::Vec;
 use core::fmt;
 
 /// The parameters of a CRC (R. N. Williams, "A painless guide to CRC error detection
@@ -151,6 +152,36 @@ impl Algorithm {
         let mut register = self.start();
         self.order(over, |at| register = self.shifted(register, bits.bit(at)));
         self.result(register)
+    }
+
+    /// What a program looks up that goes byte by byte: the register, 0 at first, after each value
+    /// of a byte, or of as many bits as the register has where those are fewer.
+    ///
+    /// ```
+    /// use encoderscope::check::Checksum;
+    /// let table = Checksum::Crc6Biss.algorithm().unwrap().table();
+    /// assert_eq!((table.len(), &table[..3]), (64, &[0x00, 0x03, 0x06][..]));
+    /// ```
+    #[must_use]
+    pub fn table(&self) -> Vec<u64> {
+        let width = self.width.min(8);
+        let entry = |value: u64| {
+            // Reflected, the first bit to go in is the least significant one.
+            let sent = if self.refin {
+                bits::reversed(value, width)
+            } else {
+                value
+            };
+            let register = (0..width).rev().fold(0, |register, place| {
+                self.shifted(register, bits::bit(sent, place))
+            });
+            if self.refin {
+                bits::reversed(register, self.width)
+            } else {
+                register
+            }
+        };
+        (0..=bits::mask(width as usize)).map(entry).collect()
     }
 
     /// The register before the first bit.

@@ -11,7 +11,7 @@ use crate::{
 use alloc::{borrow::Cow, vec::Vec};
 
 /// Lines over which the shape of the frames of a bit format is chosen.
-const ENOUGH_LINES: usize = 65_536;
+const ENOUGH_LINES: usize = 4_096;
 /// Bytes that are framed at once.
 const CHUNK: usize = 65_536;
 

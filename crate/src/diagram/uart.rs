@@ -42,14 +42,9 @@ pub(super) fn timeline(layout: &Resolved, bits: Bits<'_>) -> Timeline {
     let mut limits = Vec::new();
     let mut next = over;
     let at = (replies, over);
-    let source = match profile.format {
-        Format::Period => Some("MPP and PT, PERIOD"),
-        Format::Asi1 => Some("IP-75, 5.3.1"),
-        Format::Asi4 => Some("IP-75, 5.3.2"),
-        _ => None,
-    };
-    if let Some((source, interval)) = source.zip(profile.format.interval()) {
-        let limit = limits::interval(source, interval, at);
+    // How often a user's own stream comes is no matter of a manual.
+    if let (None, Some(interval)) = (profile.own, profile.format.interval()) {
+        let limit = limits::interval(profile.source(), interval, at);
         next = limit.at.1.max(over);
         limits.push(limit);
         encoder.slot(What::Pause, over, next);

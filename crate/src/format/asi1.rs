@@ -33,6 +33,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "asi1",
     title: "ASI1",
+    about: "the binary stream of the IP-75 inductosyn",
+    source: "IP-75, 5.3.1",
     link: Link::Stream,
     parameters: &["angle-bits", "marker", "baud"],
     quantities: &["valid", "zeroDefault"],

@@ -23,6 +23,8 @@ use crate::{layout::layout, profile::Profile};
 pub const SPEC: Spec = Spec {
     name: "asi4",
     title: "ASI4",
+    about: "the text stream of the IP-75 inductosyn",
+    source: "IP-75, 5.3.2",
     link: Link::Stream,
     parameters: &["angle-bits", "baud"],
     quantities: &[],

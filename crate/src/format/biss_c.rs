@@ -37,6 +37,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "biss-c",
     title: "BiSS-C",
+    about: "the synchronous interface of MPP and PT encoders, and of other makers",
+    source: "MPP and PT, BiSS-C",
     link: Link::Clocked,
     parameters: &[
         "angle-bits",

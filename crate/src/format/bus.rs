@@ -32,6 +32,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "bus",
     title: "BUS",
+    about: "the high-speed bus of MPP and PT encoders, up to 32 devices on one pair of wires",
+    source: "MPP and PT, BUS",
     link: Link::Polled,
     parameters: &[
         "angle-bits",
@@ -79,6 +81,16 @@ impl Operation {
             Self::Get => "get",
             Self::SetZero => "set-zero",
             Self::SetAddress => "set-address",
+        }
+    }
+
+    /// What it asks for, in a few words.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Get => "position and status",
+            Self::SetZero => "set zero",
+            Self::SetAddress => "set address",
         }
     }
 

@@ -48,6 +48,8 @@ pub(super) const INTERVAL: u64 = 1_000;
 pub const SPEC: Spec = Spec {
     name: "own",
     title: "own layout",
+    about: "a layout that comes with the program, or that a user wrote",
+    source: "the user",
     link: Link::Clocked,
     parameters: &["layout", "turns-code", "justify", "baud"],
     quantities: &[],
@@ -101,6 +103,13 @@ impl Own {
     #[must_use]
     pub fn short(&self) -> &str {
         &self.short
+    }
+
+    /// Where it is described, of one that comes with the program.
+    #[must_use]
+    pub fn source(&self) -> Option<&'static str> {
+        let shipped = SHIPPED.iter().find(|shipped| shipped.name == self.short);
+        shipped.map(|shipped| shipped.source)
     }
 
     /// What it was made from.

@@ -27,6 +27,8 @@ use crate::{layout::Layout, profile::Profile};
 pub const SPEC: Spec = Spec {
     name: "period",
     title: "PERIOD",
+    about: "what MPP and PT encoders send every millisecond unasked",
+    source: "MPP and PT, PERIOD",
     link: Link::Stream,
     parameters: &["angle-bits", "turns-bits", "turns-code", "baud"],
     quantities: &[],

@@ -31,6 +31,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "rs485",
     title: "RS485",
+    about: "one-byte commands of MPP and PT encoders over RS485 and RS422, whose replies do not say what they answer",
+    source: "MPP and PT, RS485/RS422",
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "command", "baud"],
     quantities: &["temperature", "speed", "count"],
@@ -75,6 +77,22 @@ impl Command {
     #[must_use]
     pub const fn letter(self) -> char {
         self.byte() as char
+    }
+
+    /// What it asks for, in a few words.
+    ///
+    /// ```
+    /// assert_eq!(encoderscope::format::rs485::Command::Status.title(), "position and status");
+    /// ```
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Zero => "set zero",
+            Self::Position => "position",
+            Self::Status => "position and status",
+            Self::Speed => "position and speed",
+            Self::Temperature => "position and temperature",
+        }
     }
 
     /// The byte on the wire.

@@ -35,6 +35,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi",
     title: "SSI",
+    about: "a clocked word of MPP and PT encoders, without any check",
+    source: "MPP and PT, SSI",
     link: Link::Clocked,
     parameters: &["angle-bits", "turns-bits", "turns-code", "justify"],
     quantities: &[],

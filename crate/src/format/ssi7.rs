@@ -35,6 +35,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi7",
     title: "SSI7",
+    about: "the clocked word of the IP-75 inductosyn",
+    source: "IP-75, 5.4.1",
     link: Link::Clocked,
     parameters: &["angle-bits", "frame-bits", "justify"],
     quantities: &["parity"],

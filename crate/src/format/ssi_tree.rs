@@ -39,6 +39,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi-tree",
     title: "SSI fir-tree",
+    about: "the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others",
+    source: "P+F article, tables 1 and 4",
     link: Link::Clocked,
     parameters: &[
         "angle-bits",

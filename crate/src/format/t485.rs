@@ -22,7 +22,7 @@
 
 use super::{Format, Limits, Link, Spec};
 use crate::{
-    bits::Bits,
+    bits::{self, Bits},
     check::Checksum,
     layout::{Check, Layout, Resolved, Role, Shape, StatusBit, layout},
     profile::{Dialect, Profile},
@@ -32,6 +32,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "t485",
     title: "T485",
+    about: "the Tamagawa-compatible protocol of MPP and PT encoders",
+    source: "MPP and PT, T485",
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "dialect", "baud"],
     quantities: &["parity", "operation", "enid", "alarm"],
@@ -103,6 +105,26 @@ impl Request {
         }
     }
 
+    /// What it asks for, in a few words.
+    ///
+    /// ```
+    /// assert_eq!(encoderscope::format::t485::Request::ResetTurns.title(), "reset turns");
+    /// ```
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Angle => "angle",
+            Self::Turns => "turns",
+            Self::Identity => "encoder identity",
+            Self::All => "angle, identity, turns and alarms",
+            Self::MemoryWrite => "write a byte of the EEPROM",
+            Self::ResetErrors => "reset errors",
+            Self::ResetAngle => "reset angle",
+            Self::ResetTurns => "reset turns",
+            Self::MemoryRead => "read a byte of the EEPROM",
+        }
+    }
+
     /// The control byte on the wire.
     #[must_use]
     pub const fn byte(self) -> u8 {
@@ -126,6 +148,14 @@ impl Request {
             .iter()
             .copied()
             .find(|request| request.byte() == byte)
+    }
+
+    /// The request of an operation, the four bits of the control byte that name it.
+    #[must_use]
+    pub fn of_operation(operation: u8) -> Option<Self> {
+        let named = |request: &Self| bits::slice(request.byte().into(), 3, 4);
+        let mut all = Self::ALL.iter().copied();
+        all.find(|request| named(request) == u64::from(operation))
     }
 
     /// Whether the encoder may hold something else afterwards.

@@ -2,7 +2,7 @@
 
 /// An enum whose values have a word each, for links, the command line and JavaScript.
 macro_rules! choice {
-    ($(#[doc = $doc:expr])* $name:ident { $($(#[doc = $value_doc:expr])* $value:ident = $word:literal,)* }) => {
+    ($(#[doc = $doc:expr])* $name:ident { $($(#[doc = $value_doc:literal])* $value:ident = $word:literal,)* }) => {
         $(#[doc = $doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $name { $($(#[doc = $value_doc])* $value,)* }
@@ -20,6 +20,7 @@ macro_rules! choice {
 
         impl Choice for $name {
             const WORDS: &[&str] = &[$($word),*];
+            const DOCS: &[&str] = &[$(concat!($($value_doc),*)),*];
 
             fn word(self) -> &'static str {
                 self.name()
@@ -36,6 +37,8 @@ macro_rules! choice {
 pub trait Choice: Copy {
     /// The words, in the order of the values.
     const WORDS: &[&str];
+    /// What each of them means.
+    const DOCS: &[&str];
 
     /// The word for a value.
     fn word(self) -> &'static str;

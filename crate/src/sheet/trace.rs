@@ -5,9 +5,9 @@ use crate::{decode::Decoded, dump::Dump, reading::Reading};
 use alloc::vec::Vec;
 
 /// Rows in a block.
-const BLOCK: usize = 1024;
+const BLOCK: usize = 64;
 /// Rows of a column that are read one by one; more are taken from blocks.
-const FEW: usize = 4 * BLOCK;
+const FEW: usize = 2 * BLOCK;
 
 /// What the rows of a column come to.
 #[derive(Clone, Copy, Debug, PartialEq)]

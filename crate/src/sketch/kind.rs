@@ -31,8 +31,8 @@ const EXAMPLE_MEMORY: (u8, u8) = (0x10, 0x2a);
 /// A kind of frame.
 #[derive(Clone, Debug)]
 pub struct FrameKind {
-    /// Its name, as links write it: `frame`, `reply`, `request`; of T485 and BUS the name of what
-    /// was asked, behind `request-` for the request itself.
+    /// Its name, as links write it: `frame`, `twice`, `reply`, `request`; of T485 and BUS the name
+    /// of what was asked, behind `request-` for the request itself.
     pub name: String,
     /// What it is.
     pub title: String,
@@ -70,6 +70,10 @@ impl FrameKind {
         Self {
             name: name.to_string(),
             title: match layout.layout.doc {
+                // It has the layout of an RS485 reply, and answers nothing.
+                _ if decoder.profile().format == Format::Period => {
+                    "Position and status, sent again and again".to_string()
+                }
                 [] => decoder.profile().title().to_string(),
                 _ => layout.layout.title(),
             },
@@ -163,6 +167,23 @@ impl Decoder {
                     FrameKind::reply(self, "reply", profile.command.reply(), &values),
                 ]
                 .into()
+            }
+            Format::SsiTree => {
+                let layout = self.main_layout().layout;
+                let frame = FrameKind::reply(self, "frame", layout, &values);
+                let shape = Shape {
+                    repeats: 1,
+                    ..Shape::of(*profile)
+                };
+                let twice = Resolved::new(layout, shape);
+                let again = FrameKind {
+                    name: "twice".to_string(),
+                    title: "The same word twice (multi-transmission)".to_string(),
+                    direction: Direction::Received,
+                    example: twice.encode(&values),
+                    layout: twice,
+                };
+                [frame, again].into()
             }
             _ => {
                 let layout = self.main_layout().layout;

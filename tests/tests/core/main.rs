@@ -6,6 +6,7 @@ wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
 mod captures;
 mod captures_files;
+mod captures_pieces;
 mod captures_timing;
 mod corpus;
 mod crc_search;
@@ -32,6 +33,7 @@ mod laws_ssi;
 mod layouts;
 mod own;
 mod pastes;
+mod reference;
 mod rivals;
 mod sequences;
 mod sessions;

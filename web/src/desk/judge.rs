@@ -117,9 +117,11 @@ impl Desk {
     async fn detection(&self) -> Option<Detection> {
         let (source, origin) = {
             let state = self.state.borrow();
-            if let (Paper::Whole(dump), true) =
-                (&state.paper, state.binary || state.captured.is_some())
-            {
+            if state.captured.is_some() {
+                let sample = &state.captured.sample;
+                return Some(Detection::new(sample, sample, sample));
+            }
+            if let (Paper::Whole(dump), true) = (&state.paper, state.binary) {
                 return Some(Detection::new(dump, dump, dump));
             }
             (state.source.clone()?, state.origin)
@@ -147,6 +149,7 @@ impl Desk {
         };
         if let Paper::Whole(dump) = &state.paper {
             state.paper = Paper::Whole(change.apply(dump));
+            state.captured.sample = change.apply(&state.captured.sample);
             state.captured.notes.push(change.sentence());
             let profile = state.profile;
             state.sheet = profile

@@ -37,7 +37,7 @@ impl State {
             read: (self.read, self.source.as_ref().map_or(0.0, Source::len)),
             done: self.done,
             arranged: self.arranged,
-            timing: self.captured.timing(),
+            timing: self.captured.timing.clone(),
             notes: self.captured.notes.clone(),
             captured: self.captured.is_some(),
             ..Overview::default()

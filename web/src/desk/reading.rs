@@ -3,6 +3,7 @@
 use super::{
     Desk, Paper,
     captured::Captured,
+    capturing::{Framing, Tape},
     source::{self, HEAD, Recoder, Source, is_binary},
 };
 use crate::{
@@ -11,18 +12,17 @@ use crate::{
     message::FromDesk,
 };
 use encoderscope::{
-    capture::{Kind, sniff},
-    decode::Decoder,
+    capture::{Changes, sniff},
     detect::Change,
     dump::{Dump, Reader},
     format::Medium,
     sheet::Sheet,
 };
+use std::rc::Rc;
 
-/// Bytes of the largest recording of clock and data.
-const MOST_CAPTURED: f64 = 256e6;
-/// Bytes of data that are decoded in one go.
+/// Bytes of data that are decoded in one go, and those of words of bits, which are short.
 const BUDGET: usize = 128 << 10;
+const BUDGET_OF_BITS: usize = 8 << 10;
 /// Rows that are looked at in one go.
 const ROWS: usize = 50_000;
 /// Microseconds of work before others get their turn.
@@ -53,6 +53,7 @@ impl Desk {
             let mut state = self.state.borrow_mut();
             state.job += 1;
             state.done = false;
+            state.framing = Framing::Idle;
             state.sheet = state.decoder().map(Sheet::new);
             let (filter, order) = state.shown;
             if let Some(sheet) = &mut state.sheet {
@@ -60,6 +61,11 @@ impl Desk {
             }
             state.job
         };
+        self.run(job);
+    }
+
+    /// Reads and decodes, in the background.
+    pub(super) fn run(&self, job: u32) {
         let desk = self.clone();
         wasm_bindgen_futures::spawn_local(async move {
             if let Err(why) = desk.read(job).await
@@ -71,30 +77,51 @@ impl Desk {
         });
     }
 
+    /// Stops reading; what there is stays. What has come of a recording is framed, and framing it
+    /// can be stopped as well.
+    pub(super) fn cancel(&self) {
+        let job = {
+            let mut state = self.state.borrow_mut();
+            if state.framing != Framing::Idle {
+                state.framing = Framing::Stopping;
+                return;
+            }
+            state.job += 1;
+            state.job
+        };
+        match self.cut_tape() {
+            Ok(true) => return self.run(job),
+            Ok(false) => {}
+            Err(why) => self.post(FromDesk::Refused(why)),
+        }
+        let mut state = self.state.borrow_mut();
+        state.paper = match std::mem::take(&mut state.paper) {
+            Paper::Coming(reader) => Paper::Whole(reader.finish()),
+            paper => paper,
+        };
+        state.finish();
+        drop(state);
+        self.tell(true);
+    }
+
     async fn read(&self, job: u32) -> Result<(), String> {
         let source = self.state.borrow().source.clone();
         let Some(source) = source else {
             return Ok(());
         };
         self.state.borrow_mut().captured = Captured::default();
-        let head = source.read(0.0, HEAD).await?;
+        // What has changed in a recording is framed again without reading it again.
+        if self.changes().is_none() {
+            self.read_source(job, &source).await?;
+        }
         if !self.wants(job) {
             return Ok(());
         }
-        let head = self.title(head);
-        let mut recoder = Recoder::new(&head);
-        let binary = !recoder.is_needed() && is_binary(&head);
-        self.state.borrow_mut().binary = binary;
-        match (binary, sniff(&head)) {
-            (_, Some(kind)) => self.read_capture(job, &source, kind).await?,
-            (true, None) => self.read_bytes(job, &source).await?,
-            (false, None) => {
-                let start = recoder_head(&head);
-                self.read_text(job, &source, &start, &mut recoder).await?;
+        if let Some(changes) = self.changes() {
+            self.frame(job, changes).await?;
+            if !self.wants(job) {
+                return Ok(());
             }
-        }
-        if !self.wants(job) {
-            return Ok(());
         }
         if self.state.borrow().judge.change.is_some() {
             self.undo_mistake();
@@ -110,6 +137,33 @@ impl Desk {
             self.judge(job).await;
         }
         Ok(())
+    }
+
+    /// What has changed in a recording that has been read.
+    fn changes(&self) -> Option<Rc<Changes>> {
+        match &self.state.borrow().tape {
+            Tape::Whole(changes) => Some(changes.clone()),
+            Tape::None | Tape::Coming(_) => None,
+        }
+    }
+
+    async fn read_source(&self, job: u32, source: &Source) -> Result<(), String> {
+        let head = source.read(0.0, HEAD).await?;
+        if !self.wants(job) {
+            return Ok(());
+        }
+        let head = self.title(head);
+        let mut recoder = Recoder::new(&head);
+        let binary = !recoder.is_needed() && is_binary(&head);
+        self.state.borrow_mut().binary = binary;
+        match (binary, sniff(&head)) {
+            (_, Some(kind)) => self.read_tape(job, source, kind).await,
+            (true, None) => self.read_bytes(job, source).await,
+            (false, None) => {
+                let start = recoder_head(&head);
+                self.read_text(job, source, &start, &mut recoder).await
+            }
+        }
     }
 
     /// Takes the title of a recording off its head.
@@ -212,55 +266,15 @@ impl Desk {
         }
     }
 
-    async fn read_capture(&self, job: u32, source: &Source, kind: Kind) -> Result<(), String> {
-        if source.len() > MOST_CAPTURED {
-            return Err(format!(
-                "The recording has {:.0} MB; clock and data of up to {:.0} MB are read at once. Export a shorter part.",
-                source.len() / 1e6,
-                MOST_CAPTURED / 1e6
-            ));
-        }
-        let mut turn = Turn::new();
-        let Some(text) = self.read_all(job, source, &mut turn).await? else {
-            return Ok(());
-        };
-        let profile = self.state.borrow().profile;
-        let (captured, dump, profile) = Captured::read(&text, kind, profile)?;
-        {
-            let mut state = self.state.borrow_mut();
-            // Lines of another length are something else.
-            let same =
-                |old: &Dump| old.len() == dump.len() && old.bytes().len() == dump.bytes().len();
-            if !state.paper.dump().is_some_and(same) {
-                state.judge.forget();
-            }
-            state.captured = captured;
-            state.paper = Paper::Whole(dump);
-            state.sheet = Decoder::new(profile).ok().map(Sheet::new);
-            let (filter, order) = state.shown;
-            if let Some(sheet) = &mut state.sheet {
-                sheet.show(filter, order);
-            }
-            if state.profile != Some(profile) {
-                state.profile = Some(profile);
-                let post = state.post.clone();
-                drop(state);
-                post(FromDesk::Taken(link::query(&profile)), None);
-            }
-        }
-        self.decode(job, &mut turn).await;
-        Ok(())
-    }
-
     /// Decodes what there is; whether the job is still wanted.
-    async fn decode(&self, job: u32, turn: &mut Turn) -> bool {
+    pub(super) async fn decode(&self, job: u32, turn: &mut Turn) -> bool {
         loop {
             let more = {
                 let mut state = self.state.borrow_mut();
                 let super::State { sheet, paper, .. } = &mut *state;
                 match (sheet, paper.dump()) {
                     (Some(sheet), Some(dump)) => {
-                        let more = sheet.step(dump, BUDGET);
+                        let more = sheet.step(dump, budget(sheet));
                         sheet.arrange(dump, ROWS);
                         more
                     }
@@ -300,6 +314,13 @@ impl Desk {
                 return;
             }
         }
+    }
+}
+
+fn budget(sheet: &Sheet) -> usize {
+    match sheet.decoder().profile().medium() {
+        Medium::Bits => BUDGET_OF_BITS,
+        Medium::Bytes | Medium::Text => BUDGET,
     }
 }
 

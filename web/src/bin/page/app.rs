@@ -9,6 +9,7 @@ use crate::{
     explain::{Explain, Paper},
     plot::Feed,
     ports::Obstacle,
+    reference::{Book, Reference},
     theme::ThemeSwitch,
 };
 use encoderscope::{format::Format, profile::Profile};
@@ -36,16 +37,18 @@ pub(crate) enum Area {
     Console,
     Decode,
     Explain,
+    Reference,
 }
 
 impl Area {
-    const ALL: [Self; 3] = [Self::Console, Self::Decode, Self::Explain];
+    const ALL: [Self; 4] = [Self::Console, Self::Decode, Self::Explain, Self::Reference];
 
     const fn name(self) -> &'static str {
         match self {
             Self::Console => "console",
             Self::Decode => "decode",
             Self::Explain => "explain",
+            Self::Reference => "reference",
         }
     }
 
@@ -54,6 +57,7 @@ impl Area {
             Self::Console => "Console",
             Self::Decode => "Decode",
             Self::Explain => "Explain",
+            Self::Reference => "Reference",
         }
     }
 }
@@ -83,6 +87,8 @@ pub(crate) struct App {
     pub(crate) desk: Desk,
     /// The frame of the explainer.
     pub(crate) paper: Paper,
+    /// Where the reference is open.
+    pub(crate) book: Book,
     /// The worker has broken down, and an engine on the page has taken over.
     broken: RwSignal<bool>,
     /// A port was plugged in a moment ago.
@@ -111,6 +117,7 @@ impl App {
             obstacle: RwSignal::new(None),
             desk: Desk::new(workers),
             paper: Paper::new(),
+            book: Book::new(),
             broken,
             just_plugged: RwSignal::new(false),
             connection: StoredValue::new_local(connection),
@@ -218,6 +225,7 @@ impl App {
                 let profile = self.profile.get_untracked();
                 self.paper.follow_link(&fragment, profile);
             }
+            Area::Reference => self.book.follow_link(&fragment),
             Area::Console | Area::Decode => self.desk.follow_link(&fragment),
         }
     }
@@ -230,8 +238,18 @@ impl App {
             Area::Console => {}
             Area::Decode => text += &self.desk.fragment(),
             Area::Explain => text += &self.paper.fragment(),
+            Area::Reference => text = self.book.fragment(&self.profile.get()),
         }
         text
+    }
+}
+
+impl App {
+    /// The whole address that leads back here.
+    pub(crate) fn address(&self) -> String {
+        let address = window().location().href().unwrap_or_default();
+        let page = address.split('#').next().unwrap_or_default().to_owned();
+        page + &self.fragment()
     }
 }
 
@@ -320,6 +338,7 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
                 Area::Console => view! { <Console /> }.into_any(),
                 Area::Decode => view! { <Decode /> }.into_any(),
                 Area::Explain => view! { <Explain /> }.into_any(),
+                Area::Reference => view! { <Reference /> }.into_any(),
             }}
         </main>
     }

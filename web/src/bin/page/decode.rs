@@ -18,7 +18,10 @@ use crate::{
 use candidates::{Candidates, Nearby};
 use chart::AngleChart;
 use encoderscope::{explain::grouped, format::Format};
-use encoderscope_web::message::ToDesk;
+use encoderscope_web::{
+    link,
+    message::{Explained, ToDesk},
+};
 use figures::Figures;
 use leptos::prelude::*;
 use own::OwnEditor;
@@ -101,6 +104,9 @@ pub(crate) fn Decode() -> impl IntoView {
                             {format!("Row {}", grouped(explained.index as u64 + 1))}
                             {explained.answers.map(|start| view! { <span>{format!("answers the request at {start}")}</span> })}
                         </h2>
+                        {explain_link(app, &explained).map(|link| view! {
+                            <p><a href=link data-testid="to-explain">"Open in the explainer"</a></p>
+                        })}
                         {explained.says.iter().map(|text| view! { <p class="fault">{text.clone()}</p> }).collect_view()}
                         <FrameView frame=explained />
                     </section>
@@ -109,4 +115,20 @@ pub(crate) fn Decode() -> impl IntoView {
             <Report />
         </div>
     }
+}
+
+/// The link that explains a frame.
+fn explain_link(app: App, frame: &Explained) -> Option<String> {
+    let bits = frame.bits.iter();
+    let text: String = match frame.bytes {
+        true => {
+            let byte = |bits: &[bool]| bits.iter().fold(0, |byte, bit| byte * 2 + u32::from(*bit));
+            let bytes = frame.bits.chunks(8).map(byte);
+            bytes.map(|byte| format!("{byte:02x}")).collect()
+        }
+        false => bits.map(|bit| if *bit { '1' } else { '0' }).collect(),
+    };
+    let profile = link::query(&app.profile.get_untracked());
+    (!frame.notes.is_empty())
+        .then(|| format!("#/explain?{profile}&direction=received&frame={text}"))
 }

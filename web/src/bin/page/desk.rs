@@ -4,20 +4,20 @@ mod link;
 
 pub(crate) use link::end_text;
 
-use crate::Workers;
+use crate::{Workers, handout::save};
 use encoderscope::profile::Profile;
 use encoderscope_web::{
     link::{self as links, query},
     message::{
-        CandidateView, Explained, FileKind, FromDesk, Marked, NearView, Overview, RowView,
-        Selection, ToDesk, TraceView,
+        CandidateView, Explained, FromDesk, Marked, NearView, Overview, RowView, Selection, ToDesk,
+        TraceView,
     },
 };
 use js_sys::Array;
 use leptos::prelude::*;
 use std::time::Duration;
 use wasm_bindgen::{JsCast, JsValue, prelude::Closure};
-use web_sys::{Blob, HtmlAnchorElement, MessageEvent, Url, Worker};
+use web_sys::{Blob, MessageEvent, Worker};
 
 /// Typing is over when nothing was typed for so long.
 const TYPED: Duration = Duration::from_millis(120);
@@ -87,6 +87,8 @@ pub(crate) struct Desk {
     settling: StoredValue<Option<TimeoutHandle>>,
     /// Counts inputs, so that the payload of an earlier one is known.
     shares: StoredValue<u32>,
+    /// Counts what the worker tells of how far it is.
+    heard: StoredValue<u32>,
     profile: StoredValue<Option<Profile>>,
 }
 
@@ -122,6 +124,7 @@ impl Desk {
             typing: StoredValue::new(None),
             settling: StoredValue::new(None),
             shares: StoredValue::new(0),
+            heard: StoredValue::new(0),
             profile: StoredValue::new(None),
         }
     }
@@ -211,14 +214,16 @@ impl Desk {
     pub(crate) fn cancel(self) {
         self.send(ToDesk::Cancel);
         let input = self.shares.get_value();
+        let heard = self.heard.get_value();
         let dismiss = move || {
             let same = self.shares.try_get_value() == Some(input);
+            let silent = self.heard.try_get_value() == Some(heard);
             let busy = self
                 .overview
                 .try_with_untracked(|overview| !overview.done)
                 .unwrap_or(false);
-            if busy && same {
-                self.dismiss("Stopped. A recording of clock and data is read as a whole: nothing of it is kept.");
+            if busy && same && silent {
+                self.dismiss("Stopped. Decoding did not answer: nothing of the input is kept.");
             }
         };
         set_timeout(dismiss, PATIENCE);
@@ -233,6 +238,7 @@ impl Desk {
                 }
             }
             FromDesk::Overview(overview) => {
+                self.heard.update_value(|heard| *heard += 1);
                 if overview.done {
                     self.settle();
                 }
@@ -300,7 +306,11 @@ impl Desk {
                 self.payload.set(Some(payload));
             }
             FromDesk::Shared(..) => {}
-            FromDesk::Exported(kind) => save(file, kind),
+            FromDesk::Exported(kind) => {
+                if let Some(file) = file.dyn_ref::<Blob>() {
+                    save(file, &format!("frames.{}", kind.extension()));
+                }
+            }
             FromDesk::Report(report) => self.report.set(report),
             FromDesk::Source(source) => self.source.set(Some(source)),
             FromDesk::Refused(why) => {
@@ -412,30 +422,4 @@ impl Desk {
         self.settling
             .set_value(set_timeout_with_handle(share, SETTLED).ok());
     }
-}
-
-/// Lets the user keep a file that the worker wrote.
-fn save(file: &JsValue, kind: FileKind) {
-    let Some(blob) = file.dyn_ref::<Blob>() else {
-        return;
-    };
-    let Ok(address) = Url::create_object_url_with_blob(blob) else {
-        return;
-    };
-    let link = document()
-        .create_element("a")
-        .ok()
-        .and_then(|element| element.dyn_into::<HtmlAnchorElement>().ok());
-    if let Some(link) = link {
-        link.set_href(&address);
-        link.set_download(&format!("frames.{}", kind.extension()));
-        link.click();
-    }
-    // The browser has taken the file by then.
-    set_timeout(
-        move || {
-            let _ = Url::revoke_object_url(&address);
-        },
-        Duration::from_secs(60),
-    );
 }

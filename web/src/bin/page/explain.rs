@@ -1,6 +1,7 @@
 //! The explainer: a frame as bits and fields that can be changed, and everything that follows.
 
 mod bits;
+mod exchange;
 mod fields;
 mod paper;
 mod talk;
@@ -16,6 +17,7 @@ use crate::{
 };
 use bits::BitRow;
 use encoderscope::sketch::{self, Sketch};
+use exchange::Exchange;
 use fields::Fields;
 use leptos::prelude::*;
 use talk::Talk;
@@ -35,20 +37,21 @@ pub(crate) fn Explain() -> impl IntoView {
                 <BitRow />
                 <Tools />
             </section>
+            <Wave />
             <div class="sides">
                 <div class="side">
                     <Fields />
                     <Talk />
+                    <Errata />
                 </div>
                 <div class="side">
-                    <Verdict />
-                    <Wave />
-                    <Checks />
-                    <Errata />
                     <section class="panel">
                         <h2>"Which frame"</h2>
                         <ProfileEditor offer=Offer::All />
                     </section>
+                    <Verdict />
+                    <Checks />
+                    <Exchange />
                 </div>
             </div>
         </div>
@@ -65,7 +68,10 @@ fn Heading() -> impl IntoView {
             .plan
             .with(|plan| (plan.title.clone(), plan.cells.len(), plan.bytes));
         let order = match bytes {
-            true => format!("{} bytes", count / 8),
+            true => match count / 8 {
+                1 => "1 byte".into(),
+                bytes => format!("{bytes} bytes"),
+            },
             false => format!("{count} bits, first on the wire on the left"),
         };
         view! { {title} <span>{order}</span> }

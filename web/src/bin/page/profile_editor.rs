@@ -220,13 +220,9 @@ fn writes(name: &str, word: &str) -> bool {
 }
 
 /// What a word is called on the page.
-fn title(name: &str, word: &'static str) -> &'static str {
+fn title(name: &str, word: &'static str) -> String {
     match (name, Command::parse(word)) {
-        ("command", Some(Command::Zero)) => "0 · set zero",
-        ("command", Some(Command::Position)) => "1 · position",
-        ("command", Some(Command::Status)) => "d · position, status",
-        ("command", Some(Command::Speed)) => "s · position, speed",
-        ("command", Some(Command::Temperature)) => "t · position, temperature",
-        _ => word,
+        ("command", Some(command)) => format!("{word} · {}", command.title()),
+        _ => word.to_owned(),
     }
 }

@@ -1,21 +1,9 @@
 //! Out again: links, files, a report, and decoders to paste into a program.
 
-use crate::app::App;
+use crate::{app::App, handout::copy};
 use encoderscope::export::Language;
 use encoderscope_web::message::{FileKind, ToDesk};
 use leptos::prelude::*;
-
-/// Puts text on the clipboard, then says whether it is there.
-fn copy(text: String, said: RwSignal<Option<String>>, success: &'static str) {
-    leptos::task::spawn_local(async move {
-        let clipboard = window().navigator().clipboard();
-        let written = wasm_bindgen_futures::JsFuture::from(clipboard.write_text(&text)).await;
-        said.set(Some(match written {
-            Ok(_) => success.into(),
-            Err(_) => "The browser does not let the page use the clipboard.".into(),
-        }));
-    });
-}
 
 #[component]
 pub(super) fn Share() -> impl IntoView {
@@ -29,11 +17,7 @@ pub(super) fn Share() -> impl IntoView {
         said.set(None);
     });
     let wanted = RwSignal::new(false);
-    let link = move || {
-        let address = window().location().href().unwrap_or_default();
-        let page = address.split('#').next().unwrap_or_default().to_owned();
-        page + &app.fragment()
-    };
+    let link = move || app.address();
     // The link is copied as soon as the input is packed into it.
     Effect::new(move || {
         let payload = desk.payload.get();

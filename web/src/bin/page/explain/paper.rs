@@ -1,9 +1,11 @@
 //! The frame that is explained, and what is pointed at.
 
 use encoderscope::{
+    bits::BitString,
     decode::Decoder,
     dump::Direction,
     format::Format,
+    framing::Why,
     layout::Class,
     profile::Profile,
     sketch::{Checks, Sketch},
@@ -162,7 +164,8 @@ impl Paper {
         let usual = match profile.format {
             Format::T485 => "all",
             Format::Bus => "get",
-            _ => "",
+            Format::SsiTree => "frame",
+            _ => "reply",
         };
         let named = |name: &str| kinds.iter().position(|kind| kind.name == name);
         let place = named(name).or(named(usual));
@@ -175,10 +178,20 @@ impl Paper {
 
     /// Shows a frame that was pasted, or stands in a link.
     pub(super) fn take(self, text: &str, profile: Profile, direction: Option<Direction>) {
-        let Ok(decoder) = Decoder::new(profile) else {
-            return;
-        };
-        match Sketch::parse(decoder, text, direction) {
+        if let Ok(decoder) = Decoder::new(profile) {
+            self.show_or_say(Sketch::parse(decoder, text, direction), profile);
+        }
+    }
+
+    /// Shows a frame that was read out of something else.
+    pub(super) fn take_bits(self, bits: BitString, profile: Profile, direction: Option<Direction>) {
+        if let Ok(decoder) = Decoder::new(profile) {
+            self.show_or_say(Sketch::read(decoder, bits, direction), profile);
+        }
+    }
+
+    fn show_or_say(self, read: Result<Sketch, Why>, profile: Profile) {
+        match read {
             Ok(sketch) => self.show(sketch),
             Err(why) => {
                 self.follow_profile(profile);

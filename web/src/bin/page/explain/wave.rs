@@ -13,9 +13,10 @@ use leptos::{html, prelude::*};
 const BIT: f64 = 20.0;
 const LANE: f64 = 58.0;
 const SWING: f64 = 26.0;
-const TOP: f64 = 26.0;
-/// Room for the names of the wires.
-const LEFT: f64 = 64.0;
+const TOP: f64 = 36.0;
+const LETTER: f64 = 7.2;
+/// Room in front of the first level.
+const LEFT: f64 = 4.0;
 
 #[component]
 pub(super) fn Wave() -> impl IntoView {
@@ -92,7 +93,10 @@ pub(super) fn Wave() -> impl IntoView {
                     }.into_any(),
                 }}
             </div>
-            <div class="wave" node_ref=frame tabindex="0" role="region" aria-label="Timing diagram">{picture}</div>
+            <div class="wave-box">
+                {move || timeline.with(|timeline| timeline.as_ref().map(wire_names))}
+                <div class="wave" node_ref=frame tabindex="0" role="region" aria-label="Timing diagram">{picture}</div>
+            </div>
             <ul class="limits">{limits}</ul>
         </section>
     }
@@ -169,9 +173,18 @@ fn wire(lane: &Lane, top: f64, end: i64, fold: &Fold) -> impl IntoView + use<> {
     }
     path += &format!(" L {:.1} {}", LEFT + fold.x(end), y(level));
     view! {
-        <text class="wire-name" x="0" y=top + 10.0 + SWING / 2.0 + 4.0>{lane.name}</text>
         <path class="wire" d=path />
     }
+}
+
+/// The names of the wires, which stay while the levels are scrolled.
+fn wire_names(timeline: &Timeline) -> impl IntoView + use<> {
+    let height = TOP + LANE * timeline.lanes.len() as f64;
+    let names = timeline.lanes.iter().enumerate().map(|(index, lane)| {
+        let y = TOP + LANE * index as f64 + 10.0 + SWING / 2.0 + 4.0;
+        view! { <text x="0" y=y>{lane.name}</text> }
+    });
+    view! { <svg class="wire-names" width="60" height=height aria-hidden="true">{names.collect_view()}</svg> }
 }
 
 /// A stretch of time, to point at.
@@ -204,14 +217,22 @@ fn stretch(paper: Paper, slot: &Slot, fold: &Fold) -> AnyView {
     .into_any()
 }
 
+/// A name above the wire, from where to where.
+struct Name {
+    text: String,
+    class: &'static str,
+    x: f64,
+    end: f64,
+    is_field: bool,
+}
+
 /// The name of each field above its first bit on the wire, and of what else is seen.
 fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
     let plan = paper.plan.get_untracked();
-    let mut names = Vec::new();
+    let mut names: Vec<Name> = Vec::new();
     let mut last = None;
-    let mut free = 0.0;
     for slot in timeline.of_lane(timeline.encoder()) {
-        let (text, class) = match slot.what {
+        let (text, class, is_field) = match slot.what {
             What::Bit(bit) => {
                 let field = plan.cells.get(bit).copied().flatten();
                 if field == last {
@@ -221,20 +242,36 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
                 let Some(field) = field.and_then(|field| plan.fields.get(field)) else {
                     continue;
                 };
-                (field.title(), field.class.name())
+                (field.title(), field.class.name(), true)
             }
             What::Start | What::Stop => continue,
-            other => (other.name().to_owned(), "none"),
+            other => (other.name().to_owned(), "none", false),
         };
         let x = LEFT + fold.x(slot.from);
-        // A name that has no room is in the fields, and in what is pointed at.
-        if x < free {
-            continue;
-        }
-        free = x + text.chars().count() as f64 * 7.2 + 6.0;
-        names.push(
-            view! { <text class=format!("name {class}") x=x y="14">{text}</text> }.into_any(),
-        );
+        let end = x + text.chars().count() as f64 * LETTER + LETTER;
+        names.push(Name {
+            text,
+            class,
+            x,
+            end,
+            is_field,
+        });
     }
-    names
+    // Fields come before what stands around them; a name that has no room on either line is
+    // in the list of fields.
+    names.sort_by_key(|name| !name.is_field);
+    let mut placed: [Vec<(f64, f64)>; 2] = Default::default();
+    let mut drawn = Vec::new();
+    for name in names {
+        let lines = placed.iter_mut().zip([12.0, 26.0]);
+        let room =
+            |line: &[(f64, f64)]| line.iter().all(|(x, end)| name.end <= *x || name.x >= *end);
+        let Some((line, y)) = lines.into_iter().find(|(line, _)| room(line)) else {
+            continue;
+        };
+        line.push((name.x, name.end));
+        let class = format!("name {}", name.class);
+        drawn.push(view! { <text class=class x=name.x y=y>{name.text}</text> }.into_any());
+    }
+    drawn
 }

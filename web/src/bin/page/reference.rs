@@ -1,0 +1,166 @@
+//! The reference: a page for every format, all of it out of the core's tables.
+
+mod book;
+mod checks;
+mod commands;
+mod errata;
+mod format;
+mod frames;
+mod kinds;
+mod overview;
+mod status;
+mod timing;
+
+pub(crate) use book::Book;
+
+use crate::{
+    app::App,
+    profile_editor::{Offer, ProfileEditor},
+};
+use book::{Leaf, Mark, Section};
+use encoderscope::{format::Format, profile::Profile};
+use leptos::prelude::*;
+
+#[component]
+pub(crate) fn Reference() -> impl IntoView {
+    let app = expect_context::<App>();
+    let book = app.book;
+    let place = Memo::new(move |_| (book.leaf.get(), app.profile.get().title()));
+    Effect::new(move |before: Option<(Leaf, &'static str)>| {
+        let place = place.get();
+        let mark = book.mark.get();
+        let is_new = before != Some(place);
+        // What is marked may only now come into being.
+        request_animation_frame(move || match mark {
+            Some(mark) => reveal(&mark),
+            None if is_new => window().scroll_to_with_x_and_y(0.0, 0.0),
+            None => {}
+        });
+        place
+    });
+    view! {
+        <div class="reference">
+            <div class="contents">
+                <Contents />
+                {move || (book.leaf.get() == Leaf::Format).then(|| view! {
+                    <section class="panel">
+                        <h2>"This encoder"</h2>
+                        <ProfileEditor offer=Offer::All />
+                    </section>
+                })}
+            </div>
+            {move || match book.leaf.get() {
+                Leaf::Overview => view! { <overview::Overview /> }.into_any(),
+                Leaf::Errata => view! { <errata::All /> }.into_any(),
+                Leaf::Format => view! { <format::Page /> }.into_any(),
+            }}
+        </div>
+    }
+}
+
+/// Brings what is marked into sight, and the reader of a screen reader there.
+fn reveal(mark: &Mark) {
+    use wasm_bindgen::JsCast;
+    let element = document().get_element_by_id(&mark.id());
+    if let Some(element) = element.and_then(|found| found.dyn_into::<web_sys::HtmlElement>().ok()) {
+        element.scroll_into_view();
+        // An element that is gone needs no focus.
+        let _ = element.focus();
+    }
+}
+
+/// The pages, and the parts of the one that is open.
+#[component]
+fn Contents() -> impl IntoView {
+    let app = expect_context::<App>();
+    let book = app.book;
+    let format = Memo::new(move |_| app.profile.get().format);
+    let is_open = move |known: Format| book.leaf.get() == Leaf::Format && format.get() == known;
+    let page = move |known: Format| {
+        let href = move || {
+            let profile = app.profile.get();
+            let kept = (profile.format == known).then_some(profile);
+            book::link(&kept.unwrap_or(known.default_profile()), None)
+        };
+        view! {
+            <li>
+                <a href=href aria-current=move || is_open(known).then_some("page")>{known.title()}</a>
+                {move || is_open(known).then(|| view! { <Parts /> })}
+            </li>
+        }
+    };
+    let leaf = move |leaf: Leaf, href: String, title: &'static str| {
+        view! {
+            <li>
+                <a href=href aria-current=move || (book.leaf.get() == leaf).then_some("page")>{title}</a>
+            </li>
+        }
+    };
+    let own = move || {
+        let profile = app.profile.get();
+        (is_open(Format::Own)).then(|| {
+            view! {
+                <li>
+                    <a href=book::link(&profile, None) aria-current="page">{profile.title()}</a>
+                    <Parts />
+                </li>
+            }
+        })
+    };
+    view! {
+        <div role="navigation" aria-label="Reference">
+            <ul>
+                {leaf(Leaf::Overview, "#/reference".to_owned(), "All formats")}
+                {Format::ALL.iter().map(|known| page(*known)).collect_view()}
+                {own}
+                {leaf(Leaf::Errata, book::errata_link(None), "Errors in the manuals")}
+            </ul>
+        </div>
+    }
+}
+
+/// The parts of the page that is open.
+#[component]
+fn Parts() -> impl IntoView {
+    let app = expect_context::<App>();
+    let book = app.book;
+    let parts = move || {
+        let profile = app.profile.get();
+        let there = format::sections(&profile).into_iter();
+        there
+            .map(|section| {
+                let mark = Mark::Section(section);
+                let href = book::link(&profile, Some(&mark));
+                view! {
+                    <li>
+                        <a href=href aria-current=move || book.is_marked(&mark).then_some("location")>
+                            {section.title()}
+                        </a>
+                    </li>
+                }
+            })
+            .collect_view()
+    };
+    view! { <ul>{parts}</ul> }
+}
+
+/// A part of a page with its heading, to which links lead.
+#[component]
+fn Part(profile: Profile, section: Section, children: Children) -> impl IntoView {
+    let mark = Mark::Section(section);
+    let id = mark.id();
+    view! {
+        <section class="part" id=id.clone() tabindex="-1" aria-labelledby=format!("{id}-title")>
+            <h2 id=format!("{id}-title")>
+                <a href=book::link(&profile, Some(&mark))>{section.title()}</a>
+            </h2>
+            {children()}
+        </section>
+    }
+}
+
+/// A table in a box of its own, which scrolls where it is wider than the page.
+#[component]
+fn Scroll(label: String, children: Children) -> impl IntoView {
+    view! { <div class="wide" tabindex="0" role="region" aria-label=label>{children()}</div> }
+}

@@ -1,0 +1,105 @@
+//! All formats at a glance, and the layouts of other makers that come with the program.
+
+use super::{
+    Scroll,
+    book::{errata_link, link},
+    format::Facts,
+    kinds,
+};
+use crate::app::App;
+use encoderscope::{
+    errata::ERRATA,
+    format::{Format, own::SHIPPED},
+    profile::Profile,
+};
+use leptos::prelude::*;
+
+#[component]
+pub(super) fn Overview() -> impl IntoView {
+    let app = expect_context::<App>();
+    let rows = move || {
+        let present = app.profile.get();
+        Format::ALL
+            .iter()
+            .map(|format| {
+                let mine = present.format == *format;
+                let profile = if mine {
+                    present
+                } else {
+                    format.default_profile()
+                };
+                row(profile, format.spec().about, mine)
+            })
+            .collect_view()
+    };
+    let own: Vec<_> = SHIPPED
+        .iter()
+        .filter_map(|shipped| {
+            let profile = Profile::parse([("format", "own"), ("layout", shipped.name)]).ok()?;
+            Some(row(profile, shipped.source, false))
+        })
+        .collect();
+    let heads = |about: &'static str| {
+        let names = ["format", about, "wires", "frame", "check", "rate"];
+        names
+            .map(|name| view! { <th scope="col">{name}</th> })
+            .into_view()
+    };
+    view! {
+        <article class="sheet" data-testid="reference-overview">
+            <header class="head">
+                <h1>"Reference"</h1>
+                <p class="about">
+                    "Every frame, request, check and status bit, out of the tables that this page decodes with."
+                </p>
+            </header>
+            <section class="part" aria-labelledby="formats-title">
+                <h2 id="formats-title">"Formats of the manuals"</h2>
+                <Scroll label="Formats of the manuals".to_owned()>
+                    <table class="overview">
+                        <caption class="unseen">"Formats of the manuals, each with the widths that are chosen or usual"</caption>
+                        <thead><tr>{heads("what it is")}</tr></thead>
+                        <tbody>{rows}</tbody>
+                    </table>
+                </Scroll>
+            </section>
+            <section class="part" aria-labelledby="own-title">
+                <h2 id="own-title">"Layouts of other makers"</h2>
+                <Scroll label="Layouts of other makers".to_owned()>
+                    <table class="overview">
+                        <caption class="unseen">"Layouts of other makers that come with the program, and where they are described"</caption>
+                        <thead><tr>{heads("described in")}</tr></thead>
+                        <tbody>{own}</tbody>
+                    </table>
+                </Scroll>
+            </section>
+            <section class="part" aria-labelledby="errata-title">
+                <h2 id="errata-title">"Errors in the manuals"</h2>
+                <p>
+                    <a href=errata_link(None)>{format!("{} places", ERRATA.len())}</a>
+                    " where the manuals would lead a reader wrong, with the right reading and why."
+                </p>
+            </section>
+        </article>
+    }
+}
+
+fn row(profile: Profile, about: &'static str, is_present: bool) -> impl IntoView {
+    let kinds = kinds::all(&profile);
+    let facts = Facts::of(&profile, kinds::main(&kinds));
+    view! {
+        <tr
+            data-testid="reference-entry"
+            data-format=profile.format.name()
+            class:present=is_present
+            aria-current=is_present.then_some("true")
+        >
+            <th scope="row"><a href=link(&profile, None)>{profile.title()}</a></th>
+            <td class="words">{about}</td>
+            <td class="words">{facts.wires}</td>
+            <td>{facts.length}</td>
+            <td>{facts.check}</td>
+            <td>{facts.rate}</td>
+        </tr>
+    }
+}
