@@ -217,6 +217,11 @@ impl Format {
 /// 4, "BUS" set zero and set address).
 pub const TIMES: u8 = 10;
 
+/// What only the reference says, left out where a program must be small.
+pub(crate) const fn said(text: &'static str) -> &'static str {
+    if cfg!(feature = "small") { "" } else { text }
+}
+
 /// Bits above the angle in the two bytes, or above 16 bits per turn three, that RS485, RS422,
 /// PERIOD and BUS send it in (MPP "RS485", note 2; "BUS").
 const fn angle_padding(profile: &Profile) -> u32 {

@@ -22,7 +22,7 @@
 //! certain: it is part of the CRC as received, is shown, and may be anything (`marker` says
 //! what [`crate::emulator`] sends).
 
-use super::{Format, Limits, Link, Spec};
+use super::{Format, Limits, Link, Spec, said};
 use crate::{
     check::Checksum,
     layout::{Check, Shape, layout},
@@ -33,8 +33,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "asi1",
     title: "ASI1",
-    about: "the binary stream of the IP-75 inductosyn",
-    source: "IP-75, 5.3.1",
+    about: said("the binary stream of the IP-75 inductosyn"),
+    source: said("IP-75, 5.3.1"),
     link: Link::Stream,
     parameters: &["angle-bits", "marker", "baud"],
     quantities: &["valid", "zeroDefault"],

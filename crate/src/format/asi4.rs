@@ -16,15 +16,15 @@
 //!
 //! Where the manual misleads: it gives the range as 0…16384; 14 bits end at 16383.
 
-use super::{Format, Limits, Link, Spec};
+use super::{Format, Limits, Link, Spec, said};
 use crate::{layout::layout, profile::Profile};
 
 /// ASI4.
 pub const SPEC: Spec = Spec {
     name: "asi4",
     title: "ASI4",
-    about: "the text stream of the IP-75 inductosyn",
-    source: "IP-75, 5.3.2",
+    about: said("the text stream of the IP-75 inductosyn"),
+    source: said("IP-75, 5.3.2"),
     link: Link::Stream,
     parameters: &["angle-bits", "baud"],
     quantities: &[],

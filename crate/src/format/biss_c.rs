@@ -22,7 +22,7 @@
 //! b11…b6, CRC b5…b0. The CRC-6 polynomial is x⁶+x+1, not x⁶+x⁵+1.
 
 use super::{
-    Format, Limits, Link, STATUS, Spec,
+    Format, Limits, Link, STATUS, Spec, said,
     timing::{Beyond, MICROSECOND, Timing, Words},
 };
 use crate::{
@@ -37,8 +37,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "biss-c",
     title: "BiSS-C",
-    about: "the synchronous interface of MPP and PT encoders, and of other makers",
-    source: "MPP and PT, BiSS-C",
+    about: said("the synchronous interface of MPP and PT encoders, and of other makers"),
+    source: said("MPP and PT, BiSS-C"),
     link: Link::Clocked,
     parameters: &[
         "angle-bits",

@@ -20,7 +20,7 @@
 //! bits; models XXM count 16 bits and sleep 32 µs up to 16 bits per turn, 36 µs above. The sense
 //! of the parity is likely, not certain: it is shown, and a frame is not refused for it.
 
-use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, turns_padding};
+use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, Resolved, Shape, Weight, layout},
@@ -32,8 +32,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "bus",
     title: "BUS",
-    about: "the high-speed bus of MPP and PT encoders, up to 32 devices on one pair of wires",
-    source: "MPP and PT, BUS",
+    about: said("the high-speed bus of MPP and PT encoders, up to 32 devices on one pair of wires"),
+    source: said("MPP and PT, BUS"),
     link: Link::Polled,
     parameters: &[
         "angle-bits",

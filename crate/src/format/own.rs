@@ -20,7 +20,7 @@ pub(crate) use draft::LONGEST_NAME;
 pub use draft::{CrcRule, Draft, Framing, Kind, MOST_FIELDS, Written};
 pub use shipped::{SHIPPED, Shipped};
 
-use super::{Format, Limits, Link, Spec, biss_c, ssi};
+use super::{Format, Limits, Link, Spec, biss_c, said, ssi};
 use crate::{
     check::{Algorithm, Checksum, OwnCrc},
     layout::{Check, Cover, Layout, Piece, Role, Row, Shape, StatusBit, Width},
@@ -48,8 +48,8 @@ pub(super) const INTERVAL: u64 = 1_000;
 pub const SPEC: Spec = Spec {
     name: "own",
     title: "own layout",
-    about: "a layout that comes with the program, or that a user wrote",
-    source: "the user",
+    about: said("a layout that comes with the program, or that a user wrote"),
+    source: said("the user"),
     link: Link::Clocked,
     parameters: &["layout", "turns-code", "justify", "baud"],
     quantities: &[],

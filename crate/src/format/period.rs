@@ -20,15 +20,15 @@
 //! Where the manual misleads: it names wires A and B; the frames are on TX+ and TX−, pins 5
 //! and 6.
 
-use super::{Format, Link, Spec, rs485};
+use super::{Format, Link, Spec, rs485, said};
 use crate::{layout::Layout, profile::Profile};
 
 /// PERIOD.
 pub const SPEC: Spec = Spec {
     name: "period",
     title: "PERIOD",
-    about: "what MPP and PT encoders send every millisecond unasked",
-    source: "MPP and PT, PERIOD",
+    about: said("what MPP and PT encoders send every millisecond unasked"),
+    source: said("MPP and PT, PERIOD"),
     link: Link::Stream,
     parameters: &["angle-bits", "turns-bits", "turns-code", "baud"],
     quantities: &[],

@@ -20,7 +20,7 @@
 //! (single turn: five), 0x31 six. PT's commands 0x21, 0731 and 0704 are 0x31, 0x64 and 0x74.
 //! PT's CRC table is damaged; the polynomial is right.
 
-use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, turns_padding};
+use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding};
 use crate::{
     check::Checksum,
     layout::{Check, Layout, layout},
@@ -31,8 +31,10 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "rs485",
     title: "RS485",
-    about: "one-byte commands of MPP and PT encoders over RS485 and RS422, whose replies do not say what they answer",
-    source: "MPP and PT, RS485/RS422",
+    about: said(
+        "one-byte commands of MPP and PT encoders over RS485 and RS422, whose replies do not say what they answer",
+    ),
+    source: said("MPP and PT, RS485/RS422"),
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "command", "baud"],
     quantities: &["temperature", "speed", "count"],

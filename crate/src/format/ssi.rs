@@ -21,7 +21,7 @@
 //! ns…14 µs" is the clock's period and contradicts the row of frequencies, which is right.
 
 use super::{
-    Format, HEALTH, Limits, Link, Spec,
+    Format, HEALTH, Limits, Link, Spec, said,
     timing::{Beyond, MICROSECOND, NANOSECOND, Timing, Words},
 };
 use crate::{
@@ -35,8 +35,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi",
     title: "SSI",
-    about: "a clocked word of MPP and PT encoders, without any check",
-    source: "MPP and PT, SSI",
+    about: said("a clocked word of MPP and PT encoders, without any check"),
+    source: said("MPP and PT, SSI"),
     link: Link::Clocked,
     parameters: &["angle-bits", "turns-bits", "turns-code", "justify"],
     quantities: &[],

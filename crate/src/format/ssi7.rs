@@ -21,7 +21,7 @@
 //! the data line carries the error flag.
 
 use super::{
-    Format, Limits, Link, Spec,
+    Format, Limits, Link, Spec, said,
     ssi::{AFTER, BEFORE},
     timing::{Beyond, MICROSECOND, Timing, Words},
 };
@@ -35,8 +35,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi7",
     title: "SSI7",
-    about: "the clocked word of the IP-75 inductosyn",
-    source: "IP-75, 5.4.1",
+    about: said("the clocked word of the IP-75 inductosyn"),
+    source: said("IP-75, 5.4.1"),
     link: Link::Clocked,
     parameters: &["angle-bits", "frame-bits", "justify"],
     quantities: &["parity"],

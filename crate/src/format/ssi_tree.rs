@@ -23,7 +23,7 @@
 //! 25 and 26 columns, so the word length and the place of the parity are parameters.
 
 use super::{
-    Format, Limits, Link, Spec,
+    Format, Limits, Link, Spec, said,
     ssi::{AFTER, BEFORE, shapes as plain_shapes, with_spare},
     timing::{Beyond, MICROSECOND, Timing, Words},
 };
@@ -39,8 +39,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi-tree",
     title: "SSI fir-tree",
-    about: "the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others",
-    source: "P+F article, tables 1 and 4",
+    about: said("the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others"),
+    source: said("P+F article, tables 1 and 4"),
     link: Link::Clocked,
     parameters: &[
         "angle-bits",

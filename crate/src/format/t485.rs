@@ -20,7 +20,7 @@
 //! Where the manuals mislead: the data is right-aligned, not left-aligned (note 1); the CRC is
 //! x⁸+1, not x+1 (note 2); the "17" of byte 5 is the ENID, 0x17 or 0x11, and is never required.
 
-use super::{Format, Limits, Link, Spec};
+use super::{Format, Limits, Link, Spec, said};
 use crate::{
     bits::{self, Bits},
     check::Checksum,
@@ -32,8 +32,8 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "t485",
     title: "T485",
-    about: "the Tamagawa-compatible protocol of MPP and PT encoders",
-    source: "MPP and PT, T485",
+    about: said("the Tamagawa-compatible protocol of MPP and PT encoders"),
+    source: said("MPP and PT, T485"),
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "dialect", "baud"],
     quantities: &["parity", "operation", "enid", "alarm"],

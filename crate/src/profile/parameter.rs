@@ -7,6 +7,7 @@ use crate::{
     format::{
         own::{self, Own},
         rs485::Command,
+        said,
     },
     record::Value,
 };
@@ -26,10 +27,14 @@ pub(super) struct Parameter {
     pub(super) set: fn(&mut Profile, &str) -> Result<(), String>,
 }
 
+const fn listed(texts: &'static [&'static str]) -> &'static [&'static str] {
+    if cfg!(feature = "small") { &[] } else { texts }
+}
+
 pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "layout",
-        doc: "a layout of one's own, or the name of one that comes with the program",
+        doc: said("a layout of one's own, or the name of one that comes with the program"),
         words: &[],
         docs: &[],
         show: |p| p.own.map_or("", Own::short).into(),
@@ -37,7 +42,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "angle-bits",
-        doc: "bits per turn",
+        doc: said("bits per turn"),
         words: &[],
         docs: &[],
         show: |p| p.angle_bits.into(),
@@ -45,7 +50,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "turns-bits",
-        doc: "bits of the turn counter; 0 for a single turn",
+        doc: said("bits of the turn counter; 0 for a single turn"),
         words: &[],
         docs: &[],
         show: |p| p.turns_bits.into(),
@@ -53,7 +58,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "status-bits",
-        doc: "status bits in front of the CRC",
+        doc: said("status bits in front of the CRC"),
         words: &[],
         docs: &[],
         show: |p| p.status_bits.into(),
@@ -61,7 +66,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "ack-bits",
-        doc: "zeros in front of the start bit while the encoder gets its data ready",
+        doc: said("zeros in front of the start bit while the encoder gets its data ready"),
         words: &[],
         docs: &[],
         show: |p| p.ack_bits.into(),
@@ -69,15 +74,15 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "command",
-        doc: "the command whose replies are read",
+        doc: said("the command whose replies are read"),
         words: &["0", "1", "d", "s", "t"],
-        docs: &[
+        docs: listed(&[
             Command::Zero.title(),
             Command::Position.title(),
             Command::Status.title(),
             Command::Speed.title(),
             Command::Temperature.title(),
-        ],
+        ]),
         show: |p| p.command.letter().to_string().into(),
         set: |p, text| {
             Command::parse(text)
@@ -87,7 +92,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "address",
-        doc: "address of the device",
+        doc: said("address of the device"),
         words: &[],
         docs: &[],
         show: |p| p.address.into(),
@@ -95,23 +100,23 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "code",
-        doc: "how the word stands for a number",
+        doc: said("how the word stands for a number"),
         words: Code::WORDS,
-        docs: Code::DOCS,
+        docs: listed(Code::DOCS),
         show: |p| p.code.word().into(),
         set: |p, text| chosen(text).map(|value| p.code = value),
     },
     Parameter {
         name: "align",
-        doc: "where the number stands in the word",
+        doc: said("where the number stands in the word"),
         words: Align::WORDS,
-        docs: Align::DOCS,
+        docs: listed(Align::DOCS),
         show: |p| p.align.word().into(),
         set: |p, text| chosen(text).map(|value| p.align = value),
     },
     Parameter {
         name: "frame-bits",
-        doc: "bits of the word",
+        doc: said("bits of the word"),
         words: &[],
         docs: &[],
         show: |p| p.frame_bits.into(),
@@ -119,47 +124,47 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "parity",
-        doc: "how the parity bit is computed",
+        doc: said("how the parity bit is computed"),
         words: Parity::WORDS,
-        docs: Parity::DOCS,
+        docs: listed(Parity::DOCS),
         show: |p| p.parity.word().into(),
         set: |p, text| chosen(text).map(|value| p.parity = value),
     },
     Parameter {
         name: "turns-code",
-        doc: "how the turn counter is read",
+        doc: said("how the turn counter is read"),
         words: TurnsCode::WORDS,
-        docs: TurnsCode::DOCS,
+        docs: listed(TurnsCode::DOCS),
         show: |p| p.turns_code.word().into(),
         set: |p, text| chosen(text).map(|value| p.turns_code = value),
     },
     Parameter {
         name: "status-active",
-        doc: "which level of a status bit says that the condition is there",
+        doc: said("which level of a status bit says that the condition is there"),
         words: StatusActive::WORDS,
-        docs: StatusActive::DOCS,
+        docs: listed(StatusActive::DOCS),
         show: |p| p.status_active.word().into(),
         set: |p, text| chosen(text).map(|value| p.status_active = value),
     },
     Parameter {
         name: "dialect",
-        doc: "what the alarm byte means, and which requests are known",
+        doc: said("what the alarm byte means, and which requests are known"),
         words: Dialect::WORDS,
-        docs: Dialect::DOCS,
+        docs: listed(Dialect::DOCS),
         show: |p| p.dialect.word().into(),
         set: |p, text| chosen(text).map(|value| p.dialect = value),
     },
     Parameter {
         name: "marker",
-        doc: "top bits of the bytes that are sent; any are accepted",
+        doc: said("top bits of the bytes that are sent; any are accepted"),
         words: Marker::WORDS,
-        docs: Marker::DOCS,
+        docs: listed(Marker::DOCS),
         show: |p| p.marker.word().into(),
         set: |p, text| chosen(text).map(|value| p.marker = value),
     },
     Parameter {
         name: "baud",
-        doc: "bits a second on the line",
+        doc: said("bits a second on the line"),
         words: &[],
         docs: &[],
         show: |p| p.baud.into(),
@@ -167,9 +172,9 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "justify",
-        doc: "on which side the bits of a dump stand in its bytes",
+        doc: said("on which side the bits of a dump stand in its bytes"),
         words: Justify::WORDS,
-        docs: Justify::DOCS,
+        docs: listed(Justify::DOCS),
         show: |p| p.justify.word().into(),
         set: |p, text| chosen(text).map(|value| p.justify = value),
     },
