@@ -2,6 +2,7 @@
 
 pub mod captures;
 pub mod fuzz;
+pub mod golden;
 
 use encoderscope::{
     decode::{Decoded, Decoder},

@@ -31,7 +31,7 @@ use alloc::{
 };
 
 /// The longest a wave may be, in letters.
-const LONGEST: usize = 1 << 16;
+const LONGEST: usize = 64 * 1024;
 /// What a whole period is counted in, so that its halves and phases are whole numbers.
 const PERIOD: i64 = 1_000;
 

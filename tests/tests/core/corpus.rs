@@ -14,7 +14,7 @@ use encoderscope::{
     detect::{Candidate, Verdict, detect},
     dump::{Dropped, Dump},
 };
-use encoderscope_tests::{decoder, paste};
+use encoderscope_tests::{decoder, golden, paste};
 use std::fmt::Write;
 
 struct Case {
@@ -113,8 +113,8 @@ fn every_dump_is_read_as_expected() {
         let decoder = decoder(profile);
         let dump = paste(&decoder, case.text);
         let found = format!("{profile}\n{}", shown(&decoder, &dump, case.text));
-        if is_updating() {
-            write(case.name, &found);
+        if golden::is_updating() {
+            golden::write(&format!("dumps/{}.expect", case.name), &found);
         } else if found != case.expect {
             let _ = writeln!(wrong, "{}: {}", case.name, difference(case.expect, &found));
         }
@@ -302,23 +302,3 @@ fn difference(expected: &str, found: &str) -> String {
     }
     out
 }
-
-#[cfg(not(target_arch = "wasm32"))]
-fn is_updating() -> bool {
-    std::env::var_os("UPDATE").is_some_and(|value| value == "1")
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-fn write(name: &str, text: &str) {
-    let path = format!("{}/dumps/{name}.expect", env!("CARGO_MANIFEST_DIR"));
-    std::fs::write(path, text).expect("a golden that can be written");
-}
-
-/// In a browser there are no files to write.
-#[cfg(target_arch = "wasm32")]
-fn is_updating() -> bool {
-    false
-}
-
-#[cfg(target_arch = "wasm32")]
-fn write(_: &str, _: &str) {}

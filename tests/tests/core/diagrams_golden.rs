@@ -10,7 +10,7 @@ use encoderscope::{
     bits::BitString,
     diagram::svg::{Style, Theme},
 };
-use encoderscope_tests::decoder;
+use encoderscope_tests::{decoder, golden as files};
 
 struct Golden {
     name: &'static str,
@@ -51,8 +51,8 @@ fn pictures_are_as_they_were() {
             ..Style::default()
         };
         let [found, _] = pictures(&frame, &style);
-        if is_updating() {
-            write(golden.name, &found);
+        if files::is_updating() {
+            files::write(&format!("diagrams/{}.svg", golden.name), &found);
             continue;
         }
         let pairs = found.lines().zip(golden.expected.lines());
@@ -62,23 +62,3 @@ fn pictures_are_as_they_were() {
         assert_eq!(found, golden.expected, "{}", golden.name);
     }
 }
-
-#[cfg(not(target_arch = "wasm32"))]
-fn is_updating() -> bool {
-    std::env::var_os("UPDATE").is_some_and(|value| value == "1")
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-fn write(name: &str, text: &str) {
-    let path = format!("{}/diagrams/{name}.svg", env!("CARGO_MANIFEST_DIR"));
-    std::fs::write(path, text).expect("a golden that can be written");
-}
-
-/// In a browser there are no files to write.
-#[cfg(target_arch = "wasm32")]
-fn is_updating() -> bool {
-    false
-}
-
-#[cfg(target_arch = "wasm32")]
-fn write(_: &str, _: &str) {}
