@@ -16,7 +16,8 @@
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`crc_search`]: the checksum of frames of an unknown format;
 //! - [`export`]: decoders as source, frames as tables;
-//! - [`adapter`]: what USB adapters can do.
+//! - [`product`]: what is sold; [`model`]: order codes; [`calculator`]: what is worked out on paper;
+//!   [`adapter`]: what USB adapters can do.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
 //! that was chosen.
@@ -32,6 +33,7 @@ extern crate std;
 
 pub mod adapter;
 pub mod bits;
+pub mod calculator;
 pub mod capture;
 pub mod check;
 pub mod conversation;
@@ -51,6 +53,7 @@ pub mod framing;
 pub mod history;
 pub mod layout;
 pub mod model;
+pub mod product;
 pub mod profile;
 pub mod reading;
 pub mod record;

@@ -213,7 +213,8 @@ impl App {
         if self.area.get_untracked() != area {
             self.area.set(area);
         }
-        match fragment.profile() {
+        let is_filled = area == Area::Reference && Book::is_filled(&fragment);
+        match fragment.profile().filter(|_| !is_filled) {
             Some(Ok(profile)) => self.change_profile(profile),
             Some(Err(error)) => self
                 .link_fault

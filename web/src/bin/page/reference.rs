@@ -1,6 +1,7 @@
-//! The reference: a page for every format, all of it out of the core's tables.
+//! The reference: formats, products and calculators, all of it out of the core's tables.
 
 mod book;
+mod calculator;
 mod checks;
 mod commands;
 mod errata;
@@ -10,6 +11,7 @@ mod kinds;
 mod overview;
 mod status;
 mod timing;
+mod topic;
 
 pub(crate) use book::Book;
 
@@ -17,9 +19,14 @@ use crate::{
     app::App,
     profile_editor::{Offer, ProfileEditor},
 };
-use book::{Leaf, Mark, Section};
-use encoderscope::{format::Format, profile::Profile};
+use book::{Leaf, Mark, Section, filled_link};
+use encoderscope::{
+    calculator::{CALCULATORS, Calculator},
+    format::Format,
+    profile::Profile,
+};
 use leptos::prelude::*;
+use topic::Topic;
 
 #[component]
 pub(crate) fn Reference() -> impl IntoView {
@@ -42,7 +49,7 @@ pub(crate) fn Reference() -> impl IntoView {
         <div class="reference">
             <div class="contents">
                 <Contents />
-                {move || (book.leaf.get() == Leaf::Format).then(|| view! {
+                {move || book.leaf.get().has_profile().then(|| view! {
                     <section class="panel">
                         <h2>"This encoder"</h2>
                         <ProfileEditor offer=Offer::All />
@@ -53,6 +60,10 @@ pub(crate) fn Reference() -> impl IntoView {
                 Leaf::Overview => view! { <overview::Overview /> }.into_any(),
                 Leaf::Errata => view! { <errata::All /> }.into_any(),
                 Leaf::Format => view! { <format::Page /> }.into_any(),
+                Leaf::Topic(topic) => view! { <topic::Page topic=topic /> }.into_any(),
+                Leaf::Calculator(name) => Calculator::named(name)
+                    .map(|calculator| view! { <calculator::Page calculator=calculator /> })
+                    .into_any(),
             }}
         </div>
     }
@@ -107,14 +118,27 @@ fn Contents() -> impl IntoView {
             }
         })
     };
+    let topic = |topic: Topic| {
+        let there = Leaf::Topic(topic);
+        leaf(there, filled_link(there, &[]), topic.title())
+    };
+    let calculator = |calculator: &'static Calculator| {
+        let there = Leaf::Calculator(calculator.name);
+        leaf(there, filled_link(there, &[]), calculator.title)
+    };
     view! {
         <div role="navigation" aria-label="Reference">
+            <h2>"Frames"</h2>
             <ul>
                 {leaf(Leaf::Overview, "#/reference".to_owned(), "All formats")}
                 {Format::ALL.iter().map(|known| page(*known)).collect_view()}
                 {own}
                 {leaf(Leaf::Errata, book::errata_link(None), "Errors in the manuals")}
             </ul>
+            <h2>"The encoder in the hand"</h2>
+            <ul>{Topic::ALL.map(topic).into_view()}</ul>
+            <h2>"Calculators"</h2>
+            <ul>{CALCULATORS.iter().map(calculator).collect_view()}</ul>
         </div>
     }
 }

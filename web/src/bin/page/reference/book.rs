@@ -1,7 +1,7 @@
 //! Where the reference is open: a page of it, and what is marked there.
 
-use super::kinds;
-use encoderscope::profile::Profile;
+use super::{kinds, topic::Topic};
+use encoderscope::{calculator::Calculator, profile::Profile};
 use encoderscope_web::link::{Fragment, encode, query};
 use leptos::prelude::*;
 
@@ -14,6 +14,46 @@ pub(super) enum Leaf {
     Errata,
     /// The format of the profile.
     Format,
+    /// A matter of products and wiring.
+    Topic(Topic),
+    /// A calculator, by its name.
+    Calculator(&'static str),
+}
+
+impl Leaf {
+    /// Its name in links; none for the overview and for formats, which a profile names.
+    const fn name(self) -> Option<&'static str> {
+        match self {
+            Self::Overview | Self::Format => None,
+            Self::Errata => Some("errata"),
+            Self::Topic(topic) => Some(topic.name()),
+            Self::Calculator(name) => Some(name),
+        }
+    }
+
+    /// The page of a name.
+    fn named(name: &str) -> Option<Self> {
+        let topic = || Topic::ALL.into_iter().find(|topic| topic.name() == name);
+        let calculator = || Calculator::named(name).map(|known| Self::Calculator(known.name));
+        match name {
+            "errata" => Some(Self::Errata),
+            _ => topic().map(Self::Topic).or_else(calculator),
+        }
+    }
+
+    /// Whether it works with the shared profile.
+    pub(super) const fn has_profile(self) -> bool {
+        match self {
+            Self::Format => true,
+            Self::Topic(topic) => topic.has_profile(),
+            Self::Overview | Self::Errata | Self::Calculator(_) => false,
+        }
+    }
+
+    /// Whether it is filled in.
+    const fn has_entries(self) -> bool {
+        matches!(self, Self::Topic(_) | Self::Calculator(_))
+    }
 }
 
 /// A part of a format's page.
@@ -114,11 +154,25 @@ pub(super) fn errata_link(number: Option<u32>) -> String {
     format!("#/reference?page=errata{}", mark.unwrap_or_default())
 }
 
+/// The link to a page that is filled in.
+pub(super) fn filled_link(leaf: Leaf, entries: &[(&str, &str)]) -> String {
+    let mut text = match leaf.name() {
+        Some(name) => format!("#/reference?page={name}"),
+        None => "#/reference".to_owned(),
+    };
+    for (name, value) in entries {
+        text += &format!("&{name}={}", encode(value));
+    }
+    text
+}
+
 /// Where the reference is open.
 #[derive(Clone, Copy)]
 pub(crate) struct Book {
     pub(super) leaf: RwSignal<Leaf>,
     pub(super) mark: RwSignal<Option<Mark>>,
+    /// What is filled in on the page that is open, by the names of links.
+    entries: RwSignal<Vec<(String, String)>>,
 }
 
 impl Book {
@@ -126,17 +180,66 @@ impl Book {
         Self {
             leaf: RwSignal::new(Leaf::Overview),
             mark: RwSignal::new(None),
+            entries: RwSignal::new(Vec::new()),
         }
+    }
+
+    /// Whether a link is to a page that has its own entries, which are no parameters of a profile.
+    pub(crate) fn is_filled(fragment: &Fragment) -> bool {
+        let leaf = fragment.value("page").and_then(Leaf::named);
+        leaf.is_some_and(|leaf| {
+            leaf.has_entries() && !(leaf.has_profile() && fragment.value("format").is_some())
+        })
+    }
+
+    /// What is filled in under a name.
+    pub(super) fn entry(self, name: &str) -> Option<String> {
+        self.entries.with(|entries| {
+            let found = entries.iter().find(|(known, _)| known == name);
+            found.map(|(_, value)| value.clone())
+        })
+    }
+
+    /// Fills something in.
+    pub(super) fn enter(self, name: &str, value: &str) {
+        self.entries.update(
+            |entries| match entries.iter_mut().find(|(known, _)| known == name) {
+                Some((_, present)) => value.clone_into(present),
+                None => entries.push((name.to_owned(), value.to_owned())),
+            },
+        );
+    }
+
+    /// Takes an entry away.
+    pub(super) fn clear(self, name: &str) {
+        self.entries
+            .update(|entries| entries.retain(|(known, _)| known != name));
     }
 
     /// Opens what a link says.
     pub(crate) fn follow_link(self, fragment: &Fragment) {
-        let profile = fragment.profile().and_then(Result::ok);
-        let leaf = match (&profile, fragment.value("page")) {
-            (Some(_), _) => Leaf::Format,
-            (None, Some("errata")) => Leaf::Errata,
-            (None, _) => Leaf::Overview,
+        let profile = match Self::is_filled(fragment) {
+            true => None,
+            false => fragment.profile().and_then(Result::ok),
         };
+        let page = fragment.value("page").and_then(Leaf::named);
+        let leaf = match (page, &profile) {
+            (Some(leaf), _) if leaf.has_entries() => leaf,
+            (_, Some(_)) => Leaf::Format,
+            (page, None) => page.unwrap_or(Leaf::Overview),
+        };
+        let entries = match leaf.has_entries() {
+            true => fragment
+                .parameters
+                .iter()
+                .filter(|(name, _)| name != "page" && !(leaf.has_profile() && Profile::knows(name)))
+                .cloned()
+                .collect(),
+            false => Vec::new(),
+        };
+        if self.entries.with_untracked(|present| *present != entries) {
+            self.entries.set(entries);
+        }
         let section = || {
             let name = fragment.value("section")?;
             let known = Section::ALL.into_iter();
@@ -176,6 +279,18 @@ impl Book {
             (Leaf::Errata, Some(Mark::Erratum(number))) => errata_link(Some(number)),
             (Leaf::Errata, _) => errata_link(None),
             (Leaf::Format, mark) => link(profile, mark.as_ref()),
+            (leaf @ (Leaf::Topic(_) | Leaf::Calculator(_)), _) => {
+                let entries = self.entries.get();
+                let entries: Vec<_> = entries
+                    .iter()
+                    .map(|(name, value)| (name.as_str(), value.as_str()))
+                    .collect();
+                let text = filled_link(leaf, &entries);
+                match leaf.has_profile() {
+                    true => format!("{text}&{}", query(profile)),
+                    false => text,
+                }
+            }
         }
     }
 

@@ -1,0 +1,186 @@
+//! Numbers as people write them: `200`, `2,5 MHz`, `6.5 ns/m`, `1 000 000`.
+
+use alloc::{format, string::String};
+
+/// What a number counts: units of one kind, of which each is a multiple of the first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// A plain number, of which there are only whole ones.
+    Count,
+    /// A plain number.
+    Fraction,
+    /// Bits.
+    Bits,
+    /// Frequencies.
+    Frequency,
+    /// Baud rates.
+    Rate,
+    /// Times.
+    Time,
+    /// Times per length.
+    Delay,
+    /// Lengths.
+    Length,
+    /// Angles.
+    Angle,
+}
+
+impl Measure {
+    /// Its units, with how many of the first each is.
+    const fn units(self) -> &'static [(&'static str, f64)] {
+        match self {
+            Self::Count | Self::Fraction => &[],
+            Self::Bits => &[("bits", 1.0), ("bit", 1.0)],
+            Self::Frequency => &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
+            Self::Rate => &[
+                ("baud", 1.0),
+                ("Bd", 1.0),
+                ("kbaud", 1e3),
+                ("kBd", 1e3),
+                ("Mbaud", 1e6),
+                ("MBd", 1e6),
+            ],
+            Self::Time => &[
+                ("s", 1.0),
+                ("ms", 1e-3),
+                ("µs", 1e-6),
+                ("μs", 1e-6),
+                ("us", 1e-6),
+                ("ns", 1e-9),
+            ],
+            Self::Delay => &[("ns/m", 1.0)],
+            Self::Length => &[
+                ("m", 1.0),
+                ("cm", 1e-2),
+                ("mm", 1e-3),
+                ("µm", 1e-6),
+                ("μm", 1e-6),
+                ("um", 1e-6),
+            ],
+            Self::Angle => &[
+                ("°", 1.0),
+                ("deg", 1.0),
+                ("′", 1.0 / 60.0),
+                ("'", 1.0 / 60.0),
+                ("arcmin", 1.0 / 60.0),
+                ("″", 1.0 / 3600.0),
+                ("\"", 1.0 / 3600.0),
+                ("arcsec", 1.0 / 3600.0),
+            ],
+        }
+    }
+
+    fn scale(self, unit: &str) -> Option<f64> {
+        let units = self.units();
+        // mHz is no MHz: prefixes keep their case, other letters need not.
+        let is_prefixed = unit.starts_with(['m', 'M']);
+        let exact = units.iter().find(|(name, _)| *name == unit);
+        let alike = || {
+            let mut alike = units.iter();
+            alike.find(|(name, _)| !is_prefixed && name.eq_ignore_ascii_case(unit))
+        };
+        let found = exact.or_else(alike);
+        found.map(|(_, scale)| *scale)
+    }
+}
+
+/// The number in a text, in `unit`; a unit behind it may be another of the same measure.
+///
+/// Spaces of any width may group the digits, and the decimal sign is a point or a comma.
+///
+/// # Errors
+///
+/// Says what is not a number, or which units there are.
+///
+/// ```
+/// use encoderscope::calculator::quantity::{Measure, parse};
+/// assert_eq!(parse("2,5 MHz", Measure::Frequency, "kHz"), Ok(2500.0));
+/// assert_eq!(parse("1 000 000", Measure::Count, ""), Ok(1e6));
+/// assert!(parse("200 apples", Measure::Length, "m").is_err());
+/// ```
+pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let is_digit = |letter: char| letter.is_ascii_digit() || matches!(letter, '.' | ',');
+    let is_sign = |letter: char| matches!(letter, '-' | '−' | '+');
+    let end = text
+        .find(|letter: char| !(is_digit(letter) || is_sign(letter) || letter.is_whitespace()))
+        .unwrap_or(text.len());
+    let (digits, name) = text.split_at(end);
+    let digits: String = digits
+        .chars()
+        .filter(|letter| !letter.is_whitespace())
+        .map(|letter| match letter {
+            ',' => '.',
+            '−' => '-',
+            other => other,
+        })
+        .collect();
+    let number: f64 = match digits.is_empty() {
+        true if text.is_empty() => return Err("is empty".into()),
+        _ => digits
+            .parse()
+            .map_err(|_| format!("\"{text}\" is not a number"))?,
+    };
+    let of = |name: &str| measure.scale(name).unwrap_or(1.0);
+    match name.trim() {
+        "" => Ok(number),
+        name => measure
+            .scale(name)
+            .map(|scale| number * (scale / of(unit)))
+            .ok_or_else(|| {
+                let known: alloc::vec::Vec<_> =
+                    measure.units().iter().map(|(name, _)| *name).collect();
+                match known.is_empty() {
+                    true => format!("\"{name}\" stands behind a plain number"),
+                    false => format!("\"{name}\" is none of {}", known.join(", ")),
+                }
+            }),
+    }
+}
+
+/// A number with so many significant digits, its thousands apart and without trailing zeros.
+///
+/// ```
+/// use encoderscope::calculator::quantity::rounded;
+/// assert_eq!(rounded(79.1015625, 3), "79.1");
+/// assert_eq!(rounded(2_526_315.79, 4), "2\u{202f}526\u{202f}000");
+/// assert_eq!(rounded(0.0, 3), "0");
+/// assert_eq!(rounded(-0.000_123_4, 2), "−0.00012");
+/// ```
+#[must_use]
+pub fn rounded(number: f64, digits: i32) -> String {
+    if !number.is_finite() {
+        return "∞".into();
+    }
+    let sign = if number < 0.0 { "−" } else { "" };
+    let size = number.abs();
+    let mut places = digits - 1;
+    let mut scale = 1.0;
+    while size >= 10.0 * scale && scale < 1e300 {
+        scale *= 10.0;
+        places -= 1;
+    }
+    while size > 0.0 && size < scale && scale > 1e-300 {
+        scale /= 10.0;
+        places += 1;
+    }
+    let size = match places < 0 {
+        true => {
+            let mut step = 1.0;
+            for _ in places..0 {
+                step *= 10.0;
+            }
+            (size / step + 0.5) as u64 as f64 * step
+        }
+        false => size,
+    };
+    let text = format!("{size:.*}", usize::try_from(places).unwrap_or(0));
+    let (whole, part) = text.split_once('.').unwrap_or((&text, ""));
+    let whole = whole
+        .parse()
+        .map_or_else(|_| whole.into(), crate::explain::grouped);
+    match part.trim_end_matches('0') {
+        "" => format!("{sign}{whole}"),
+        part => format!("{sign}{whole}.{part}"),
+    }
+}

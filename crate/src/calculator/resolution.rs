@@ -1,0 +1,158 @@
+//! Bits, counts, degrees, seconds of arc, and millimetres at a radius.
+
+use super::{Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word, quantity::Measure};
+use alloc::format;
+
+const BITS: Word = Word {
+    name: "bits",
+    title: "bits per turn",
+};
+const COUNTS: Word = Word {
+    name: "counts",
+    title: "counts per turn",
+};
+const DEGREES: Word = Word {
+    name: "degrees",
+    title: "degrees per count",
+};
+const ARC: Word = Word {
+    name: "arc-seconds",
+    title: "seconds of arc per count",
+};
+const LENGTH: Word = Word {
+    name: "length",
+    title: "µm per count at the radius",
+};
+
+const SECONDS: f64 = 360.0 * 3600.0;
+/// The finest that a format of the manuals can say, and more than any encoder has.
+const MOST: f64 = (1u64 << 48) as f64;
+
+pub(super) const RESOLUTION: Calculator = Calculator {
+    name: "resolution",
+    title: "Resolution",
+    about: "Bits, counts, degrees, seconds of arc and micrometres at a radius, and what the accuracy leaves of them.",
+    source: "IP-75, table 1; MPP and PT, characteristics",
+    inputs: &[
+        Input::word(
+            "given",
+            "What is known",
+            "any one of them gives the others",
+            &[BITS, COUNTS, DEGREES, ARC, LENGTH],
+            "bits",
+        ),
+        Input::number(
+            "value",
+            "How much",
+            "a bare number counts what is chosen above",
+            (Measure::Fraction, ""),
+            (0.0, MOST),
+            "24",
+        ),
+        Input::number(
+            "radius",
+            "Radius",
+            "from the axis to the point that moves",
+            (Measure::Length, "mm"),
+            (0.001, 1e6),
+            "50",
+        ),
+        Input::number(
+            "accuracy",
+            "Accuracy, ±",
+            "MPP and PT ±0.01°, IP-75 720″",
+            (Measure::Angle, "°"),
+            (0.0, 360.0),
+            "0.01",
+        ),
+    ],
+    work,
+};
+
+fn work(given: &Given) -> Result<Outcome, Fault> {
+    let value = given.number("value");
+    let radius = given.number("radius");
+    let accuracy = given.number("accuracy");
+    let around = 2.0 * core::f64::consts::PI * radius * 1e3;
+    let fault = |message: alloc::string::String| Fault {
+        input: "value",
+        message,
+    };
+    let counts = match given.word("given") {
+        "bits" if value > 48.0 || value != f64::from(value as u32) => {
+            return Err(fault(format!(
+                "{value} bits: a width is a whole number up to 48"
+            )));
+        }
+        "bits" => (1u64 << value as u32) as f64,
+        "counts" => value,
+        _ if value <= 0.0 => return Err(fault("a count of no size does not divide a turn".into())),
+        "degrees" => 360.0 / value,
+        "arc-seconds" => SECONDS / value,
+        _ => around / value,
+    };
+    if counts < 1.0 {
+        return Err(fault("a turn has less than one such count".into()));
+    }
+    if counts > MOST {
+        return Err(fault("a turn has more counts than 48 bits can say".into()));
+    }
+    let bits = (0..=48u32).find(|bits| (1u64 << bits) as f64 >= counts);
+    let bits = bits.unwrap_or(48);
+    let exact = (1u64 << bits) as f64 == counts;
+    let step = 360.0 / counts;
+    let width = Answer::of("bits", "Bits per turn", bits.into(), 2, "bits");
+    let width = match exact {
+        true => width,
+        false => width.note(format!(
+            "the next width above: {bits} bits have {} counts",
+            super::quantity::rounded((1u64 << bits) as f64, 15)
+        )),
+    };
+    let within = accuracy / step;
+    let trust = Answer::of(
+        "counts-within-accuracy",
+        "Counts in ± the accuracy",
+        within,
+        4,
+        "counts",
+    );
+    let trust = match within > 1.0 {
+        true => trust
+            .tone(Tone::Warn)
+            .note("the last digits repeat well and tell small movements, but not the true angle"),
+        false => trust
+            .tone(Tone::Good)
+            .note("the resolution is the limit, not the accuracy"),
+    };
+    Ok(Outcome {
+        answers: [
+            width,
+            Answer::of("counts", "Counts per turn", counts, 15, ""),
+            Answer::of("degrees", "Degrees per count", step, 6, "°"),
+            Answer::of(
+                "arc-seconds",
+                "Seconds of arc per count",
+                SECONDS / counts,
+                6,
+                "″",
+            ),
+            Answer::of(
+                "length",
+                "Way per count at the radius",
+                around / counts,
+                4,
+                "µm",
+            ),
+            Answer::of(
+                "accuracy-length",
+                "Accuracy at the radius, ±",
+                accuracy / 360.0 * around,
+                4,
+                "µm",
+            ),
+            trust,
+        ]
+        .into(),
+    })
+}

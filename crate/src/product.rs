@@ -1,0 +1,128 @@
+//! What is sold: the series of encoders, and the interfaces that each comes with.
+
+use crate::format::Format;
+
+/// A series of encoders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Series {
+    /// KingKong MPP, magnetic.
+    Mpp,
+    /// Mosrac PT, magnetic: the same electronics in another mount.
+    Pt,
+    /// The inductosyn IP-75.
+    Ip75,
+    /// Pepperl+Fuchs AVS58, single turn, solid shaft.
+    Avs58,
+    /// Pepperl+Fuchs AVM58, multi-turn, solid shaft.
+    Avm58,
+    /// Pepperl+Fuchs ASS58, single turn, hollow shaft.
+    Ass58,
+    /// Pepperl+Fuchs ASM58, multi-turn, hollow shaft.
+    Asm58,
+}
+
+/// How an encoder is wired and what it speaks. RS485 and RS422 speak the same over other wires.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interface {
+    /// SSI of MPP and PT, letter S.
+    Ssi,
+    /// BiSS-C, letter B.
+    BissC,
+    /// RS485, letter R: two wires.
+    Rs485,
+    /// RS422, letter A: four wires.
+    Rs422,
+    /// T485, letter T.
+    T485,
+    /// BUS, letter D.
+    Bus,
+    /// PERIOD, letter P.
+    Period,
+    /// The binary stream of IP-75 over RS-485.
+    Asi1,
+    /// The text stream of IP-75 over RS-485.
+    Asi4,
+    /// SSI of IP-75.
+    Ssi7,
+    /// The classic SSI word of Pepperl+Fuchs.
+    SsiTree,
+}
+
+impl Series {
+    /// All series.
+    pub const ALL: [Self; 7] = [
+        Self::Mpp,
+        Self::Pt,
+        Self::Ip75,
+        Self::Avs58,
+        Self::Avm58,
+        Self::Ass58,
+        Self::Asm58,
+    ];
+
+    /// The name on the label.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Mpp => "MPP",
+            Self::Pt => "PT",
+            Self::Ip75 => "IP-75",
+            Self::Avs58 => "AVS58",
+            Self::Avm58 => "AVM58",
+            Self::Ass58 => "ASS58",
+            Self::Asm58 => "ASM58",
+        }
+    }
+
+    /// The interfaces that it comes with.
+    ///
+    /// ```
+    /// use encoderscope::product::{Interface, Series};
+    /// assert_eq!(Series::Avm58.interfaces(), [Interface::SsiTree]);
+    /// ```
+    #[must_use]
+    pub const fn interfaces(self) -> &'static [Interface] {
+        match self {
+            Self::Mpp | Self::Pt => &[
+                Interface::Ssi,
+                Interface::BissC,
+                Interface::Rs485,
+                Interface::Rs422,
+                Interface::T485,
+                Interface::Bus,
+                Interface::Period,
+            ],
+            Self::Ip75 => &[Interface::Asi1, Interface::Asi4, Interface::Ssi7],
+            Self::Avs58 | Self::Avm58 | Self::Ass58 | Self::Asm58 => &[Interface::SsiTree],
+        }
+    }
+}
+
+impl Interface {
+    /// The name for people.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Rs485 => "RS485",
+            Self::Rs422 => "RS422",
+            other => other.format().title(),
+        }
+    }
+
+    /// The format of its frames.
+    #[must_use]
+    pub const fn format(self) -> Format {
+        match self {
+            Self::Ssi => Format::Ssi,
+            Self::BissC => Format::BissC,
+            Self::Rs485 | Self::Rs422 => Format::Rs485,
+            Self::T485 => Format::T485,
+            Self::Bus => Format::Bus,
+            Self::Period => Format::Period,
+            Self::Asi1 => Format::Asi1,
+            Self::Asi4 => Format::Asi4,
+            Self::Ssi7 => Format::Ssi7,
+            Self::SsiTree => Format::SsiTree,
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! A calculator: what it needs, and what follows. All of it is out of the core's tables.
+
+use super::{Scroll, book::Book};
+use crate::{app::App, handout::copy};
+use encoderscope::calculator::{Answer, Calculator, Fault, Input, Kind, Outcome, Tone};
+use leptos::prelude::*;
+
+#[component]
+pub(super) fn Page(calculator: &'static Calculator) -> impl IntoView {
+    let book = expect_context::<App>().book;
+    let outcome = Memo::new(move |_| work(calculator, book));
+    let inputs = calculator
+        .inputs
+        .iter()
+        .map(|input| view! { <Field input=input outcome=outcome /> });
+    view! {
+        <article class="sheet" data-testid="calculator" data-name=calculator.name>
+            <header class="head">
+                <h1>{calculator.title}</h1>
+                <p class="about">{calculator.about}</p>
+            </header>
+            <section class="part" aria-label="What is given">
+                <div class="form">{inputs.collect_view()}</div>
+            </section>
+            <section class="part" aria-label="What follows" aria-live="polite">
+                {move || match outcome.get() {
+                    Ok(outcome) => view! { <Answers outcome=outcome /> }.into_any(),
+                    Err(fault) => view! {
+                        <p class="fault" data-testid="calculator-fault" data-input=fault.input>
+                            {sentence(&fault)}
+                        </p>
+                    }.into_any(),
+                }}
+            </section>
+            <p class="source">"Source: " {calculator.source}</p>
+            <CopyLink />
+        </article>
+    }
+}
+
+fn work(calculator: &Calculator, book: Book) -> Result<Outcome, Fault> {
+    let entered: Vec<_> = calculator
+        .inputs
+        .iter()
+        .map(|input| (input.name, book.entry(input.name)))
+        .collect();
+    calculator.work(|name| {
+        let found = entered.iter().find(|(known, _)| *known == name);
+        found.and_then(|(_, text)| text.as_deref())
+    })
+}
+
+fn sentence(fault: &Fault) -> String {
+    let mut letters = fault.message.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first
+        .into_iter()
+        .flatten()
+        .chain(letters)
+        .chain(['.'])
+        .collect()
+}
+
+/// One input. What is the default is no part of the link.
+#[component]
+fn Field(input: &'static Input, outcome: Memo<Result<Outcome, Fault>>) -> impl IntoView {
+    let book = expect_context::<App>().book;
+    let id = format!("input-{}", input.name);
+    let hint = format!("{id}-hint");
+    let value = move || book.entry(input.name).unwrap_or(input.default.to_owned());
+    let enter = move |text: String| match text == input.default {
+        true => book.clear(input.name),
+        false => book.enter(input.name, &text),
+    };
+    let wrong = move || {
+        let fault = outcome.with(|outcome| outcome.as_ref().err().map(|fault| fault.input));
+        (fault == Some(input.name)).then_some("true")
+    };
+    let control = match input.kind {
+        Kind::Word(words) => view! {
+            <select
+                id=id.clone()
+                data-testid="calculator-input"
+                data-name=input.name
+                aria-describedby=hint.clone()
+                on:change:target=move |event| enter(event.target().value())
+            >
+                {words
+                    .iter()
+                    .map(|word| view! {
+                        <option value=word.name selected=move || value() == word.name>{word.title}</option>
+                    })
+                    .collect_view()}
+            </select>
+        }.into_any(),
+        Kind::Number { .. } => view! {
+            <input
+                id=id.clone()
+                data-testid="calculator-input"
+                data-name=input.name
+                aria-describedby=hint.clone()
+                aria-invalid=wrong
+                inputmode="decimal"
+                spellcheck="false"
+                autocomplete="off"
+                prop:value=value
+                on:input:target=move |event| enter(event.target().value())
+            />
+        }.into_any(),
+    };
+    view! {
+        <div class="asked">
+            <label for=id>{input.title}</label>
+            <span class="entered">{control} <span class="unit">{input.unit()}</span></span>
+            <p class="hint" id=hint>{input.doc}</p>
+        </div>
+    }
+}
+
+#[component]
+fn Answers(outcome: Outcome) -> impl IntoView {
+    let rows = outcome.answers.into_iter().map(answer);
+    view! {
+        <Scroll label="Answers".to_owned()>
+            <table class="answers">
+                <caption class="unseen">"Answers"</caption>
+                <thead class="unseen">
+                    <tr>
+                        <th scope="col">"what"</th>
+                        <th scope="col">"answer"</th>
+                        <th scope="col">"to know"</th>
+                    </tr>
+                </thead>
+                <tbody>{rows.collect_view()}</tbody>
+            </table>
+        </Scroll>
+    }
+}
+
+fn answer(answer: Answer) -> impl IntoView {
+    let (tone, sign) = match answer.tone {
+        Tone::Plain => ("", ""),
+        Tone::Good => ("good", "✓ "),
+        Tone::Warn => ("warn", "! "),
+        Tone::Bad => ("bad", "✗ "),
+    };
+    view! {
+        <tr
+            data-testid="calculator-answer"
+            data-name=answer.name
+            data-value=answer.number.map(|number| number.to_string())
+        >
+            <th scope="row">{answer.title}</th>
+            <td class=format!("answer {tone}")>{sign} {answer.text}</td>
+            <td class="words doc">{answer.note}</td>
+        </tr>
+    }
+}
+
+/// Copies the link to the page as it is filled in.
+#[component]
+pub(super) fn CopyLink() -> impl IntoView {
+    let app = expect_context::<App>();
+    let said = RwSignal::new(None::<String>);
+    view! {
+        <p class="doors">
+            <button
+                data-testid="copy-link"
+                on:click=move |_| copy(untrack(|| app.address()), said, "Link copied.")
+            >
+                "Copy link"
+            </button>
+            <span role="status" class="hint">{move || said.get()}</span>
+        </p>
+    }
+}

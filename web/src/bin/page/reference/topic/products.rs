@@ -1,0 +1,6 @@
+//! Sizes and characteristics of the products.
+
+use leptos::prelude::*;
+
+#[component]
+pub(super) fn Page() -> impl IntoView {}
