@@ -124,8 +124,7 @@ pub struct Look {
 /// ```
 pub fn parse(code: &str) -> Result<Model, ModelError> {
     let texts = label::parts(code);
-    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
-    let first = texts.first().copied().unwrap_or_default();
+    let first = texts.first().map(String::as_str).unwrap_or_default();
     let form = Form::of(first).ok_or_else(|| no_series(first))?;
     form.compose(&texts)
 }
@@ -148,7 +147,7 @@ pub fn look(code: &str) -> Vec<Look> {
     let mut looks: Vec<Look> = (0..count)
         .map(|index| {
             let text = texts.get(index).map(String::as_str);
-            let part = parts.get(index);
+            let part = parts.get(index).copied();
             let read = read(part, text, parts.len());
             Look {
                 text: text.unwrap_or_default().to_string(),
@@ -218,16 +217,22 @@ impl Form {
     /// assert_eq!(model.code(), "PT-15B-25H-A-24BM-R-N-A-M");
     /// # Ok::<(), encoderscope::model::ModelError>(())
     /// ```
-    pub fn compose(&'static self, texts: &[&str]) -> Result<Model, ModelError> {
+    pub fn compose(&'static self, texts: &[impl AsRef<str>]) -> Result<Model, ModelError> {
         let count = self.parts.len();
-        let tokens = (0..count.max(texts.len())).map(|index| {
-            let text = texts.get(index).copied();
-            read(self.parts.get(index), text, count).map_err(|message| ModelError {
-                position: index + 1,
-                message,
-            })
-        });
-        let model = Model::of(self, tokens.collect::<Result<_, _>>()?);
+        let mut tokens = Vec::new();
+        for index in 0..count.max(texts.len()) {
+            let text = texts.get(index).map(AsRef::as_ref);
+            match read(self.parts.get(index).copied(), text, count) {
+                Ok(token) => tokens.push(token),
+                Err(message) => {
+                    return Err(ModelError {
+                        position: index + 1,
+                        message,
+                    });
+                }
+            }
+        }
+        let model = Model::of(self, tokens);
         match model.impossible() {
             None => Ok(model),
             Some((place, why)) => {

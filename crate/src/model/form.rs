@@ -19,7 +19,7 @@ pub struct Form {
     /// Where the form is from.
     pub source: &'static str,
     /// The positions, of which the first tells the forms apart.
-    pub parts: &'static [Part],
+    pub parts: &'static [&'static Part],
 }
 
 /// A position of an order code: a number, where it has one, and one of some words behind it.
@@ -158,17 +158,15 @@ impl Part {
     /// What a text says at this position.
     #[must_use]
     pub fn read(&'static self, text: &str) -> Option<Token> {
-        let rest = match self.number {
-            Some(_) => text.trim_start_matches(|letter: char| letter.is_ascii_digit()),
-            None => text,
-        };
-        let digits = text.get(..text.len() - rest.len())?;
-        let number = match self.number {
+        let (number, rest) = match self.number {
             Some((least, most, _)) => {
+                let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+                let (digits, rest) = text.split_at_checked(digits)?;
                 let number = digits.parse().ok();
-                number.filter(|number| (least..=most).contains(number))?
+                let fitting = number.filter(|number| (least..=most).contains(number));
+                (fitting?, rest)
             }
-            None => 0,
+            None => (0, text),
         };
         let word = self.words.iter().find(|word| word.text == rest)?;
         Some(Token {
@@ -259,7 +257,7 @@ impl Form {
 }
 
 /// Bits per turn, and how turns are kept (MPP and PT, "Models"; the 8-bit counter: "BUS", example).
-const RESOLUTION: Part = Part::of(
+static RESOLUTION: Part = Part::of(
     Place::Resolution,
     &[
         word("", Says::Turns(Turns::Single, 0), "single turn"),
@@ -319,15 +317,15 @@ const INTERFACE: Part = Part::of(
     "interface",
 );
 
-const OUTPUT: Part = Part::of(
+static OUTPUT: Part = Part::of(
     Place::Output,
     &[word("A", Says::Nothing, "absolute value")],
     "what is put out",
 );
 
-const SUPPLY: Part = Part::of(Place::Supply, &[word("N", Says::Nothing, "5 V")], "supply");
+static SUPPLY: Part = Part::of(Place::Supply, &[word("N", Says::Nothing, "5 V")], "supply");
 
-const TEMPERATURE: Part = Part::of(
+static TEMPERATURE: Part = Part::of(
     Place::Temperature,
     &[
         word("A", Says::Temperature(-40, 85), "−40…85 °C"),
@@ -338,7 +336,7 @@ const TEMPERATURE: Part = Part::of(
 );
 
 /// Baud codes A and B (MPP and PT, "RS485/RS422").
-const OPTION: Part = Part::of(
+static OPTION: Part = Part::of(
     Place::Option,
     &[
         word("M", Says::Nothing, "no option"),
@@ -362,7 +360,7 @@ pub static FORMS: &[Form] = &[
         title: "MPP",
         source: said("MPP, order code"),
         parts: &[
-            Part::of(
+            &Part::of(
                 Place::Series,
                 &[word(
                     "MPP",
@@ -371,34 +369,34 @@ pub static FORMS: &[Form] = &[
                 )],
                 "series",
             ),
-            diameter(
+            &diameter(
                 Place::Rotor,
                 &[word("", Says::Nothing, "")],
                 "inner diameter of the rotor",
             ),
-            diameter(
+            &diameter(
                 Place::Stator,
                 &[word("", Says::Nothing, "")],
                 "outer diameter of the stator",
             ),
-            OUTPUT,
-            RESOLUTION,
-            INTERFACE,
-            SUPPLY,
-            TEMPERATURE,
-            OPTION,
+            &OUTPUT,
+            &RESOLUTION,
+            &INTERFACE,
+            &SUPPLY,
+            &TEMPERATURE,
+            &OPTION,
         ],
     },
     Form {
         title: "PT",
         source: said("PT, models and size table; the letters as in MPP, order code"),
         parts: &[
-            Part::of(
+            &Part::of(
                 Place::Series,
                 &[word("PT", Says::Series(Series::Pt), "Mosrac PT, magnetic")],
                 "series",
             ),
-            diameter(
+            &diameter(
                 Place::Rotor,
                 &[
                     word("", Says::Nothing, "rotor with a thread"),
@@ -406,7 +404,7 @@ pub static FORMS: &[Form] = &[
                 ],
                 "size of the rotor, and how it is fixed",
             ),
-            diameter(
+            &diameter(
                 Place::Stator,
                 &[
                     word("", Says::Nothing, "mounted from the front"),
@@ -414,19 +412,19 @@ pub static FORMS: &[Form] = &[
                 ],
                 "outer diameter of the stator, and how it is mounted",
             ),
-            OUTPUT,
-            RESOLUTION,
-            INTERFACE,
-            SUPPLY,
-            TEMPERATURE,
-            OPTION,
+            &OUTPUT,
+            &RESOLUTION,
+            &INTERFACE,
+            &SUPPLY,
+            &TEMPERATURE,
+            &OPTION,
         ],
     },
     Form {
         title: "IP-75",
         source: said("IP-75, 5.3 and 5.4; its manual has no order code"),
         parts: &[
-            Part::of(
+            &Part::of(
                 Place::Series,
                 &[word(
                     "IP-75",
@@ -435,7 +433,7 @@ pub static FORMS: &[Form] = &[
                 )],
                 "series",
             ),
-            Part::of(
+            &Part::of(
                 Place::Interface,
                 &[
                     word(
@@ -458,7 +456,7 @@ pub static FORMS: &[Form] = &[
         title: "Pepperl+Fuchs",
         source: said("P+F article, table 6"),
         parts: &[
-            Part::of(
+            &Part::of(
                 Place::Series,
                 &[
                     word(
@@ -484,7 +482,7 @@ pub static FORMS: &[Form] = &[
                 ],
                 "series",
             ),
-            Part::of(
+            &Part::of(
                 Place::Logic,
                 &[
                     word("", Says::Nothing, "a microcontroller, with a preset"),
@@ -499,9 +497,9 @@ pub static FORMS: &[Form] = &[
         title: "MPP or PT",
         source: said("MPP and PT, T485 note 2, BUS version table, CRC-6 program"),
         parts: &[
-            RESOLUTION,
+            &RESOLUTION,
             // The CRC-6 program calls BiSS-C models 17M and 16.
-            INTERFACE.or("B"),
+            &INTERFACE.or("B"),
         ],
     },
 ];
