@@ -164,7 +164,7 @@ export interface Model extends Profile {
   /** The series; `MPP or PT` of a short form such as `17M-T`. */
   series: string;
   /** The code as it is ordered, in capital letters. */
-  code: string;
+  orderCode: string;
   /** The interface; `rs485` and `rs422` share the format `rs485`, but not the wires. */
   interface: string;
   turnsKept: 'none' | 'powered' | 'battery' | 'flash' | 'gear';
@@ -180,8 +180,8 @@ export interface Model extends Profile {
   /** Diameters, mm. */
   rotor: number | null;
   stator: number | null;
-  /** Bits of the frame that is read most; of BiSS-C without its preamble. */
-  frameBits: number | null;
+  /** Bits of the frame that is read most, where it always has as many; of BiSS-C without its preamble. */
+  frameBits?: number;
 }
 
 /** What an order code says; throws with the part that is wrong. */

@@ -208,10 +208,11 @@ impl Model {
         let value = |name| fact(name).map(|fact| fact.value);
         let diameter = |place| self.token(place).map(|token| token.number);
         let temperature = self.temperature();
-        self.profile
+        let record = self
+            .profile
             .record()
             .with("series", self.series_name())
-            .with("code", self.code())
+            .with("orderCode", self.code())
             .with("interface", self.interface.key())
             .with("turnsKept", self.turns.name())
             .with("battery", self.has_battery())
@@ -227,7 +228,11 @@ impl Model {
                 temperature.map(|range| i64::from(range.1)),
             )
             .with("rotor", diameter(Place::Rotor))
-            .with("stator", diameter(Place::Stator))
-            .with("frameBits", self.frame_bits())
+            .with("stator", diameter(Place::Stator));
+        match self.frame_bits() {
+            // The word length of an SSI profile is the same number.
+            Some(bits) if record.find("frameBits").is_none() => record.with("frameBits", bits),
+            _ => record,
+        }
     }
 }

@@ -8,6 +8,7 @@ use encoderscope::{
     model::{FORMS, Form, Model, Part, Place, Token, Turns, look, parse},
     product::{Interface, Series},
     profile::{Code, Profile},
+    record::Value,
 };
 
 fn model(code: &str) -> Model {
@@ -385,8 +386,30 @@ fn a_code_says_what_else_follows() {
     let record = model.record().to_string();
     assert_eq!(
         record,
-        r#"{"format":"rs485","angleBits":24,"turnsBits":16,"command":"d","turnsCode":"unsigned","baud":115200,"series":"PT","code":"PT-15B-25H-A-24BM-R-N-B-A","interface":"rs485","turnsKept":"battery","battery":true,"changesByCommand":true,"supply":"4.5…5.5 V","current":"≈ 100 mA","leastTemperature":-40,"greatestTemperature":105,"rotor":15,"stator":25,"frameBits":56}"#
+        r#"{"format":"rs485","angleBits":24,"turnsBits":16,"command":"d","turnsCode":"unsigned","baud":115200,"series":"PT","orderCode":"PT-15B-25H-A-24BM-R-N-B-A","interface":"rs485","turnsKept":"battery","battery":true,"changesByCommand":true,"supply":"4.5…5.5 V","current":"≈ 100 mA","leastTemperature":-40,"greatestTemperature":105,"rotor":15,"stator":25,"frameBits":56}"#
     );
+}
+
+#[test]
+fn no_name_of_a_record_means_two_things() {
+    for code in [
+        "17M",
+        "16M1-D",
+        "IP-75-ASI4",
+        "IP-75-SSI7",
+        "AVS58",
+        "AVM58-H",
+    ] {
+        let model = model(code);
+        let record = model.record();
+        let mut names: Vec<_> = record.0.iter().map(|(name, _)| name).collect();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), record.0.len(), "{code}: {record}");
+        let bits = record.find("frameBits").map(Value::plain);
+        let expected = model.frame_bits().map(|bits| bits.to_string());
+        assert_eq!(bits, expected, "{code}");
+    }
 }
 
 #[test]
