@@ -133,7 +133,14 @@ fn Contents() -> impl IntoView {
             list.set_open(is_wide());
         }
     };
-    let resize = window_event_listener(ev::resize, move |_| fold());
+    let wide = StoredValue::new(is_wide());
+    let resize = window_event_listener(ev::resize, move |_| {
+        // A phone resizes its page while it is scrolled.
+        if wide.get_value() != is_wide() {
+            wide.set_value(is_wide());
+            fold();
+        }
+    });
     on_cleanup(move || resize.remove());
     Effect::new(move || {
         let _ = (list.get(), book.leaf.get(), format.get());
