@@ -14,7 +14,7 @@ const fn word(system: System) -> Word {
 pub(super) const ADAPTERS: Calculator = Calculator {
     name: "adapters",
     title: "USB adapters",
-    about: "The rate that each chip really makes of an asked one, and what keeps replies back.",
+    about: "The rate that each chip really makes of an asked one, which its driver takes without a word; and what keeps replies back.",
     source: "FTDI AN232B-04, AN232B-05 and TN_105; Linux ftdi_sio; data sheets of WCH and Silicon Labs",
     inputs: &[
         Input::number(
@@ -101,7 +101,7 @@ fn made(chip: &Chip, asked: u32) -> Answer {
     match chip.made(asked) {
         Made::Rate(rate) => of(rate).tone(Tone::Good).note(with(say(rate))),
         Made::Not(rate) => of(rate).tone(Tone::Bad).note(with(format!(
-            "{}: more than the {} % that a UART bears; the driver takes this rate without a word",
+            "{}, where a UART bears {} %",
             say(rate),
             TOLERANCE * 100.0
         ))),

@@ -73,6 +73,10 @@ pub(super) fn Overview() -> impl IntoView {
                 <h2 id="hand-title">"With the encoder in the hand"</h2>
                 <dl class="topics">{topics.into_view()}</dl>
             </section>
+            <section class="part" aria-labelledby="calculators-title">
+                <h2 id="calculators-title">"Calculators"</h2>
+                <dl class="topics">{calculators.collect_view()}</dl>
+            </section>
             <section class="part" aria-labelledby="formats-title">
                 <h2 id="formats-title">"Formats of the manuals"</h2>
                 <Scroll label="Formats of the manuals".to_owned()>
@@ -92,10 +96,6 @@ pub(super) fn Overview() -> impl IntoView {
                         <tbody>{own}</tbody>
                     </table>
                 </Scroll>
-            </section>
-            <section class="part" aria-labelledby="calculators-title">
-                <h2 id="calculators-title">"Calculators"</h2>
-                <dl class="topics">{calculators.collect_view()}</dl>
             </section>
             <section class="part" aria-labelledby="errata-title">
                 <h2 id="errata-title">"Errors in the manuals"</h2>
