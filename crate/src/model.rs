@@ -10,6 +10,7 @@
 mod conclusions;
 mod form;
 mod label;
+mod offer;
 
 pub use conclusions::Request;
 pub use form::{FORMS, Form, Part, Place, Says, Token, Word};

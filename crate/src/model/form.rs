@@ -18,6 +18,8 @@ pub struct Form {
     pub title: &'static str,
     /// Where the form is from.
     pub source: &'static str,
+    /// The parts of a usual code.
+    pub example: &'static [&'static str],
     /// The positions, of which the first tells the forms apart.
     pub parts: &'static [&'static Part],
 }
@@ -120,6 +122,11 @@ impl Place {
             Self::Logic => "kind of logic",
         }
     }
+}
+
+/// What only a composer needs.
+const fn shown(texts: &'static [&'static str]) -> &'static [&'static str] {
+    if cfg!(feature = "small") { &[] } else { texts }
 }
 
 const fn word(text: &'static str, says: Says, doc: &'static str) -> Word {
@@ -359,6 +366,7 @@ pub static FORMS: &[Form] = &[
     Form {
         title: "MPP",
         source: said("MPP, order code"),
+        example: shown(&["MPP", "40", "60", "A", "24BM", "R", "N", "A", "M"]),
         parts: &[
             &Part::of(
                 Place::Series,
@@ -390,6 +398,7 @@ pub static FORMS: &[Form] = &[
     Form {
         title: "PT",
         source: said("PT, models and size table; the letters as in MPP, order code"),
+        example: shown(&["PT", "20", "30", "A", "24BM", "R", "N", "A", "M"]),
         parts: &[
             &Part::of(
                 Place::Series,
@@ -423,6 +432,7 @@ pub static FORMS: &[Form] = &[
     Form {
         title: "IP-75",
         source: said("IP-75, 5.3 and 5.4; its manual has no order code"),
+        example: shown(&["IP-75", "ASI1"]),
         parts: &[
             &Part::of(
                 Place::Series,
@@ -455,6 +465,7 @@ pub static FORMS: &[Form] = &[
     Form {
         title: "Pepperl+Fuchs",
         source: said("P+F article, table 6"),
+        example: shown(&["AVM58", ""]),
         parts: &[
             &Part::of(
                 Place::Series,
@@ -496,6 +507,7 @@ pub static FORMS: &[Form] = &[
     Form {
         title: "MPP or PT",
         source: said("MPP and PT, T485 note 2, BUS version table, CRC-6 program"),
+        example: shown(&["17M", "T"]),
         parts: &[
             &RESOLUTION,
             // The CRC-6 program calls BiSS-C models 17M and 16.
