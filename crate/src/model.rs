@@ -11,9 +11,11 @@ mod conclusions;
 mod form;
 mod label;
 mod offer;
+mod tables;
 
 pub use conclusions::Request;
-pub use form::{FORMS, Form, Part, Place, Says, Token, Word};
+pub use form::{Form, Part, Place, Says, Token, Word};
+pub use tables::FORMS;
 
 use crate::{
     product::{Interface, Series},

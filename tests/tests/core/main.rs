@@ -33,6 +33,7 @@ mod laws_profiles;
 mod laws_ssi;
 mod layouts;
 mod order_codes;
+mod order_codes_meaning;
 mod own;
 mod pastes;
 mod products;
