@@ -81,12 +81,18 @@ impl Form {
     pub fn complete(&self, looks: &[Look]) -> Vec<String> {
         let mut texts: Vec<String> = Vec::new();
         let mut examples = self.example.iter();
+        let mut is_rotor_kept = true;
         for (index, part) in self.parts.iter().enumerate() {
             let example = examples.next().copied().unwrap_or_default();
             let same = looks
                 .iter()
                 .find(|look| look.part.is_some_and(|known| known.place == part.place));
-            let kept = same.filter(|look| part.read(&look.text).is_some());
+            // A stator goes with its rotor.
+            let is_alone = part.place == Place::Stator && !is_rotor_kept;
+            let kept = same.filter(|look| !is_alone && part.read(&look.text).is_some());
+            if part.place == Place::Rotor {
+                is_rotor_kept = kept.is_some();
+            }
             let choices = self.choices(index, &texts);
             let text = match (kept, part.place) {
                 (Some(look), _) => look.text.clone(),

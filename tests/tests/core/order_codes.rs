@@ -334,3 +334,35 @@ fn labels_are_read_as_they_are_typed() {
     );
     assert_eq!(model("ASМ58-Н").code(), "ASM58-H");
 }
+
+#[test]
+fn a_composer_keeps_what_another_form_can_keep() {
+    for (code, title, expected) in [
+        (
+            "PT-15B-25-A-23BM-T-N-C-M",
+            "MPP",
+            "MPP-40-60-A-23BM-T-N-C-M",
+        ),
+        ("PT-40-25-A-24-B-N-A-M", "MPP", "MPP-40-25-A-24-B-N-A-M"),
+        ("MPP-50-?-A-24-B-N-A-M", "MPP", "MPP-50-70-A-24-B-N-A-M"),
+        ("MPP-40-60-A-17FM-T-N-A-M", "MPP or PT", "17FM-T"),
+        ("23M-T", "PT", "PT-20-30-A-23M-T-N-A-M"),
+        ("ASM58-H", "MPP", "MPP-40-60-A-24BM-R-N-A-M"),
+        ("", "IP-75", "IP-75-ASI1"),
+    ] {
+        let form = Form::named(title).unwrap();
+        assert_eq!(form.complete(&look(code)).join("-"), expected, "{code}");
+    }
+    // What a composer offers is what a code can have.
+    for form in FORMS {
+        let texts = form.complete(&[]);
+        assert!(form.compose(&texts).is_ok(), "{texts:?}");
+        for index in 0..form.parts.len() {
+            let choices = form.choices(index, &texts);
+            assert!(
+                choices.iter().any(|token| token.text() == texts[index]),
+                "{texts:?}"
+            );
+        }
+    }
+}
