@@ -180,7 +180,7 @@ fn Facts(title: &'static str, series: &'static [Series]) -> impl IntoView {
     });
     view! {
         <Scroll label=format!("Characteristics of {title}")>
-            <table class="facts">
+            <table class="characteristics">
                 <caption class="unseen">{format!("Characteristics of {title}")}</caption>
                 <thead>
                     <tr>
@@ -223,37 +223,37 @@ fn columns(series: Series) -> &'static [&'static str] {
     }
 }
 
-fn cells(size: &Size) -> Vec<String> {
+/// The cells of a row, and over how many columns each goes.
+fn cells(size: &Size) -> Vec<(String, &'static str)> {
     let number = |number: f64| number.to_string();
+    let diameter = size.stator_diameter().to_string();
     let mut cells = match size.mount {
         Mount::Screws(circle) => vec![
-            size.rotor_diameter().to_string(),
-            size.stator_diameter().to_string(),
-            number(circle),
+            (size.rotor_diameter().to_string(), "1"),
+            (diameter, "1"),
+            (number(circle), "1"),
         ],
         Mount::Thread(thread, abc) => vec![
-            "thread".to_owned(),
-            side(size),
-            thread.to_owned(),
-            number(abc),
-            "″".to_owned(),
-            "″".to_owned(),
-            size.stator_diameter().to_string(),
+            ("thread".to_owned(), "1"),
+            (side(size), "1"),
+            (thread.to_owned(), "1"),
+            (number(abc), "3"),
+            (diameter, "1"),
         ],
         Mount::Bonded(a, b, c) => vec![
-            "bonded".to_owned(),
-            side(size),
-            "–".to_owned(),
-            number(a),
-            number(b),
-            number(c),
-            size.stator_diameter().to_string(),
+            ("bonded".to_owned(), "1"),
+            (side(size), "1"),
+            ("–".to_owned(), "1"),
+            (number(a), "1"),
+            (number(b), "1"),
+            (number(c), "1"),
+            (diameter, "1"),
         ],
     };
     cells.extend([
-        number(size.stator_circle),
-        size.connector().to_owned(),
-        size.thickness.map_or(String::new(), number),
+        (number(size.stator_circle), "1"),
+        (size.connector().to_owned(), "1"),
+        (size.thickness.map_or(String::new(), number), "1"),
     ]);
     cells
 }
@@ -278,7 +278,10 @@ fn Sizes(title: &'static str, sizes: Vec<&'static Size>) -> impl IntoView {
         view! {
             <tr data-testid="product-size" data-name=size.name()>
                 <th scope="row"><a href=href>{size.name()}</a></th>
-                {cells(size).into_iter().map(|cell| view! { <td>{cell}</td> }).collect_view()}
+                {cells(size)
+                    .into_iter()
+                    .map(|(text, columns)| view! { <td colspan=columns>{text}</td> })
+                    .collect_view()}
             </tr>
         }
     });
