@@ -17,7 +17,7 @@
 //! - [`crc_search`]: the checksum of frames of an unknown format;
 //! - [`export`]: decoders as source, frames as tables;
 //! - [`product`]: what is sold; [`model`]: order codes; [`calculator`]: what is worked out on paper;
-//!   [`adapter`]: what USB adapters can do.
+//!   [`adapter`]: what USB adapters can do; [`apci1710`]: the registers of a board that clocks SSI.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
 //! that was chosen.
@@ -32,6 +32,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod adapter;
+pub mod apci1710;
 pub mod bits;
 pub mod calculator;
 pub mod capture;

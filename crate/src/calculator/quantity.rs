@@ -23,13 +23,15 @@ pub enum Measure {
     Length,
     /// Angles.
     Angle,
+    /// Addresses: whole numbers, in hexadecimal digits behind `0x`.
+    Address,
 }
 
 impl Measure {
     /// Its units, with how many of the first each is.
     const fn units(self) -> &'static [(&'static str, f64)] {
         match self {
-            Self::Count | Self::Fraction => &[],
+            Self::Count | Self::Fraction | Self::Address => &[],
             Self::Bits => &[("bits", 1.0), ("bit", 1.0)],
             Self::Frequency => &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
             Self::Rate => &[
@@ -86,7 +88,8 @@ impl Measure {
 
 /// The number in a text, in `unit`; a unit behind it may be another of the same measure.
 ///
-/// Spaces of any width may group the digits, and the decimal sign is a point or a comma.
+/// Spaces of any width may group the digits, and the decimal sign is a point or a comma. An address
+/// may be hexadecimal.
 ///
 /// # Errors
 ///
@@ -96,10 +99,14 @@ impl Measure {
 /// use encoderscope::calculator::quantity::{Measure, parse};
 /// assert_eq!(parse("2,5 MHz", Measure::Frequency, "kHz"), Ok(2500.0));
 /// assert_eq!(parse("1 000 000", Measure::Count, ""), Ok(1e6));
+/// assert_eq!(parse("0xD0_80", Measure::Address, ""), Ok(53376.0));
 /// assert!(parse("200 apples", Measure::Length, "m").is_err());
 /// ```
 pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
     let text = text.trim();
+    if let (Measure::Address, Some(digits)) = (measure, hexadecimal(text)) {
+        return address(digits).ok_or_else(|| format!("\"{text}\" is not an address"));
+    }
     let is_digit = |letter: char| letter.is_ascii_digit() || matches!(letter, '.' | ',');
     let is_sign = |letter: char| matches!(letter, '-' | '−' | '+');
     let end = text
@@ -136,6 +143,21 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
                 }
             }),
     }
+}
+
+/// The digits behind `0x`.
+fn hexadecimal(text: &str) -> Option<&str> {
+    let digits = text.strip_prefix("0x");
+    digits.or_else(|| text.strip_prefix("0X"))
+}
+
+fn address(digits: &str) -> Option<f64> {
+    let digits = digits.chars().filter(|letter| *letter != '_');
+    let mut address = None;
+    for letter in digits {
+        address = Some(address.unwrap_or(0.0) * 16.0 + f64::from(letter.to_digit(16)?));
+    }
+    address
 }
 
 /// A number with so many significant digits, its thousands apart and without trailing zeros.
