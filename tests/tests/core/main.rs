@@ -4,6 +4,8 @@
 #[cfg(target_arch = "wasm32")]
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
+mod apci;
+mod calculators;
 mod captures;
 mod captures_files;
 mod captures_pieces;
