@@ -225,6 +225,38 @@ impl Register {
         Resolved::new(self.layout(), Shape::of(Format::SsiTree.default_profile()))
     }
 
+    /// The value in a text: decimal, or behind `0x` or `0b`; `_` and spaces may group the digits.
+    ///
+    /// ```
+    /// use encoderscope::apci1710::Register;
+    /// assert_eq!(Register::Control.entered("0b101"), Ok(5));
+    /// assert!(Register::Control.entered("0x100").is_err());
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Says what is not a number, or that the register has fewer bits.
+    pub fn entered(self, text: &str) -> Result<u32, String> {
+        let mut digits = text.to_ascii_lowercase();
+        digits.retain(|letter| !letter.is_whitespace() && letter != '_');
+        let parsed = match digits.split_at_checked(2) {
+            Some(("0x", digits)) => u64::from_str_radix(digits, 16),
+            Some(("0b", digits)) => u64::from_str_radix(digits, 2),
+            _ => digits.parse(),
+        };
+        let number = parsed.map_err(|_| {
+            format!("\"{text}\" is no value of a register: 100, 0x64 and 0b1100100 are")
+        })?;
+        let width = self.width();
+        match u32::try_from(number) {
+            Ok(value) if number <= bits::mask(width) => Ok(value),
+            _ => Err(format!(
+                "{text} does not fit: {} has {width} bits",
+                self.title()
+            )),
+        }
+    }
+
     /// What the bits of a value say, the highest first; what is wider than the register is cut off.
     #[must_use]
     pub fn notes(self, value: u32) -> Vec<Note> {

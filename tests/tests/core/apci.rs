@@ -141,6 +141,33 @@ fn the_other_registers_say_what_they_do() {
 }
 
 #[test]
+fn values_are_entered_in_three_bases() {
+    for text in ["165", "0xA5", "0XA5", "0b1010_0101", " 1 65 ", "0b10100101"] {
+        assert_eq!(Register::Counts.entered(text), Ok(165), "{text}");
+    }
+    for register in Register::ALL {
+        let most = u64::MAX >> (64 - register.width());
+        assert_eq!(register.entered(&format!("{most:#x}")), Ok(most as u32));
+        let fault = register.entered(&(most + 1).to_string()).unwrap_err();
+        assert!(fault.contains("does not fit"), "{fault}");
+        for text in [
+            "",
+            "-1",
+            "0x",
+            "0b2",
+            "0b",
+            "SI10",
+            "1e3",
+            "1.5",
+            "é0",
+            "99999999999999999999999",
+        ] {
+            assert!(register.entered(text).is_err(), "{text}");
+        }
+    }
+}
+
+#[test]
 fn the_divider_is_twice_frq_but_for_0() {
     assert_eq!(
         (divider(0), divider(1), divider(50), divider(u16::MAX)),
