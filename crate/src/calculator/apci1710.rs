@@ -58,7 +58,7 @@ pub(super) const APCI_1710: Calculator = Calculator {
             "of the encoders; the line and the encoder set its limits",
             (Measure::Frequency, "kHz"),
             (0.001, 100_000.0),
-            "100",
+            "125",
         ),
         Input::number(
             "bits",
@@ -206,7 +206,7 @@ fn limits(clock: f64) -> Answer {
             rounded(lowest(tree.timeout) / 1e3, 4)
         )),
         clock if clock <= lowest(tree.silence()).max(lowest(own.silence())) => {
-            answer("of most encoders").tone(Tone::Warn).note(format!(
+            answer("for most encoders").tone(Tone::Warn).note(format!(
                 "t_m is {} ± {} µs, and t_M of MPP and PT {} µs: above {} kHz all keep up",
                 micros(tree.timeout),
                 micros(tree.timeout - tree.silence()),

@@ -104,7 +104,9 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     let reply = Resolved::new(Operation::Get.reply(), Shape::of(profile)).len / 8;
     let reply_time = reply as f64 * byte;
     let answered = delay + reply_time;
-    let distance = byte + suspend.max(answered);
+    // Of one device alone nobody sleeps.
+    let is_asleep = devices > 1.0 && suspend > answered;
+    let distance = byte + if is_asleep { suspend } else { answered };
     let asleep = Answer::of(
         "suspend",
         "Sleep of the others, T_SUSPEND",
@@ -146,9 +148,9 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
             5,
             "µs",
         )
-        .note(match answered > suspend {
-            true => "request, delay and reply",
-            false => "request and sleep: before that the next device does not hear",
+        .note(match is_asleep {
+            true => "request and sleep: before that the next device does not hear",
+            false => "request, delay and reply",
         }),
         Answer::of("round", "A round of all devices", round / 1e3, 5, "ms"),
         Answer::of("rate", "Positions a second, of each", 1e6 / round, 4, ""),

@@ -219,15 +219,17 @@ fn word_limits(format: Format) -> (f64, f64) {
 /// What the delay makes of the clock.
 fn shift(line: &Line) -> [Answer; 4] {
     let phase = line.phase(line.clock);
-    let (tone, said) = match phase {
-        phase if phase < SAFE => (Tone::Good, "safe: less than a quarter of a period"),
+    let (tone, said, why) = match phase {
+        phase if phase < SAFE => (Tone::Good, "safe", "less than a quarter of a period"),
         phase if phase < WRONG => (
             Tone::Warn,
-            "works, without reserve: more than a quarter of a period, less than half of one",
+            "works, with no margin",
+            "more than a quarter of a period, less than half of one",
         ),
         _ => (
             Tone::Bad,
-            "wrong bits: each comes when the next one is read",
+            "wrong bits",
+            "each bit comes when the next one is read",
         ),
     };
     let highest = |name, title: &str, degrees: f64| match line.delay {
@@ -238,7 +240,9 @@ fn shift(line: &Line) -> [Answer; 4] {
         Answer::of("phase", "Phase shift of the clock wished", phase, 4, "°")
             .note("the delay in periods of the clock, times 360°")
             .tone(tone),
-        Answer::said("verdict", "So the clock wished", said).tone(tone),
+        Answer::said("verdict", "So the clock wished is", said)
+            .note(why)
+            .tone(tone),
         highest("clock-safe", "Highest clock for 90°", SAFE).note("one period is four delays"),
         highest("clock-edge", "Highest clock for 180°", WRONG)
             .note("one period is two delays: nothing may become slower"),
@@ -311,35 +315,39 @@ fn window(line: &Line) -> [Answer; 3] {
     };
     let period = line.period();
     let asked = clock * 1e3;
-    let too_long = format!("the period of {} µs", rounded(period, 4));
-    let (tone, fits) = match asked {
+    let too_long = format!("the period of {} µs is not below", rounded(period, 4));
+    let (tone, fits, why) = match asked {
         asked if asked > f64::from(timing.limit()) => (
             Tone::Bad,
-            format!("no: at most {}", hertz(f64::from(timing.limit()))),
+            "no",
+            format!("at most {}", hertz(f64::from(timing.limit()))),
         ),
-        asked if asked > f64::from(timing.fastest) => (Tone::Warn, format!("only so: {beyond}")),
+        asked if asked > f64::from(timing.fastest) => (Tone::Warn, "conditionally", beyond.clone()),
         _ if period >= timeout => (
             Tone::Bad,
+            "no",
             format!(
-                "no: {too_long} is not below the time-out of {} µs, and the encoder gives up",
+                "{too_long} the time-out of {} µs, and the encoder gives up",
                 rounded(timeout, 4)
             ),
         ),
         asked if asked < f64::from(timing.slowest) => (
             Tone::Warn,
+            "not by the manual",
             format!(
-                "below the {} of the manual, though the period is below the time-out",
+                "below its {}, though the period is below the time-out",
                 hertz(f64::from(timing.slowest))
             ),
         ),
         _ if period >= shortest => (
             Tone::Warn,
+            "for most encoders",
             format!(
-                "yes, but {too_long} is not below the shortest time-out, {} µs",
+                "{too_long} the shortest time-out, {} µs",
                 rounded(shortest, 4)
             ),
         ),
-        _ => (Tone::Good, "yes".into()),
+        _ => (Tone::Good, "yes", String::new()),
     };
     let lowest = Answer::of(
         "timeout-clock",
@@ -371,7 +379,9 @@ fn window(line: &Line) -> [Answer; 3] {
             false => format!("{}; {beyond}", timing.source),
         }),
         lowest,
-        Answer::said("clock-fits", "Is the clock wished allowed", fits).tone(tone),
+        Answer::said("clock-fits", "Is the clock wished allowed", fits)
+            .note(why)
+            .tone(tone),
     ]
 }
 

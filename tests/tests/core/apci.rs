@@ -197,7 +197,12 @@ fn an_18_bit_encoder_stands_in_a_word_of_25_bits() {
     // P+F article, register COUNTS: four zeros, eight bits of turns, ten of angle, three zeros.
     let decoder = decoder("format=ssi-tree angle-bits=10 turns-bits=8 code=binary");
     assert_eq!(decoder.profile().frame_bits, 25);
-    let word = Word::read(&decoder, 0b0000_1010_0101_11_0000_1111_000, Form::Plain).unwrap();
+    let word = Word::read(
+        &decoder,
+        0b1010_0101 << 13 | 0b11_0000_1111 << 3,
+        Form::Plain,
+    )
+    .unwrap();
     let spans: Vec<_> = word
         .notes
         .iter()

@@ -53,7 +53,7 @@ int main(void)
 fn the_program_for_the_board_reads_what_the_board_holds() {
     let folder = folder("apci-1710");
     let cases = [
-        ("", 0u32, 165u32, 25u32, 1u32, 0x01ff_ffffu32, 8_580u32),
+        ("", 0u32, 132u32, 25u32, 1u32, 0x01ff_ffffu32, 6_864u32),
         (
             "module=3 base=0xD000 clock=1000 bits=32 gray=1-2-3",
             0xd0c0,

@@ -176,6 +176,7 @@ fn answer(answer: Answer) -> impl IntoView {
         Tone::Warn => ("warn", "! "),
         Tone::Bad => ("bad", "✗ "),
     };
+    let is_said = answer.number.is_none();
     view! {
         <tr
             data-testid="calculator-answer"
@@ -183,7 +184,7 @@ fn answer(answer: Answer) -> impl IntoView {
             data-value=answer.number.map(|number| number.to_string())
         >
             <th scope="row">{answer.title}</th>
-            <td class=format!("answer {tone}")>{sign} {answer.text}</td>
+            <td class=format!("answer {tone}") class:words=is_said>{sign} {answer.text}</td>
             <td class="words doc">{answer.note}</td>
         </tr>
     }
