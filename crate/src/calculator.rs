@@ -16,8 +16,9 @@
 //! # Ok::<(), encoderscope::calculator::Fault>(())
 //! ```
 
+mod adapters;
 mod apci1710;
-mod bus_round;
+mod bus_timing;
 pub mod quantity;
 mod resolution;
 mod ssi_line;
@@ -125,7 +126,7 @@ pub struct Code {
 /// One answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// Its name, in kebab-case.
+    /// Its name, which no translation changes.
     pub name: &'static str,
     /// What it is.
     pub title: String,
@@ -173,8 +174,9 @@ impl core::error::Error for Fault {}
 pub static CALCULATORS: &[Calculator] = &[
     resolution::RESOLUTION,
     ssi_line::SSI_LINE,
-    bus_round::BUS_ROUND,
+    bus_timing::BUS_TIMING,
     apci1710::APCI_1710,
+    adapters::ADAPTERS,
 ];
 
 impl Calculator {

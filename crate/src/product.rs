@@ -74,6 +74,32 @@ impl Series {
         }
     }
 
+    /// Its name in links.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Mpp => "mpp",
+            Self::Pt => "pt",
+            Self::Ip75 => "ip-75",
+            Self::Avs58 => "avs58",
+            Self::Avm58 => "avm58",
+            Self::Ass58 => "ass58",
+            Self::Asm58 => "asm58",
+        }
+    }
+
+    /// The series of a name in links.
+    ///
+    /// ```
+    /// use encoderscope::product::Series;
+    /// assert_eq!(Series::parse("ip-75"), Some(Series::Ip75));
+    /// assert_eq!(Series::parse("IP75"), None);
+    /// ```
+    #[must_use]
+    pub fn parse(key: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|series| series.key() == key)
+    }
+
     /// The interfaces that it comes with.
     ///
     /// ```
@@ -99,6 +125,53 @@ impl Series {
 }
 
 impl Interface {
+    /// All interfaces.
+    pub const ALL: [Self; 11] = [
+        Self::Ssi,
+        Self::BissC,
+        Self::Rs485,
+        Self::Rs422,
+        Self::T485,
+        Self::Bus,
+        Self::Period,
+        Self::Asi1,
+        Self::Asi4,
+        Self::Ssi7,
+        Self::SsiTree,
+    ];
+
+    /// Its name in links.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Ssi => "ssi",
+            Self::BissC => "biss-c",
+            Self::Rs485 => "rs485",
+            Self::Rs422 => "rs422",
+            Self::T485 => "t485",
+            Self::Bus => "bus",
+            Self::Period => "period",
+            Self::Asi1 => "asi1",
+            Self::Asi4 => "asi4",
+            Self::Ssi7 => "ssi7",
+            Self::SsiTree => "ssi-tree",
+        }
+    }
+
+    /// The interface of a name in links.
+    ///
+    /// ```
+    /// use encoderscope::product::Interface;
+    /// assert_eq!(Interface::parse("rs422"), Some(Interface::Rs422));
+    /// assert_eq!(Interface::parse("rs232"), None);
+    /// ```
+    #[must_use]
+    pub fn parse(key: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|interface| interface.key() == key)
+    }
+
     /// The name for people.
     #[must_use]
     pub const fn title(self) -> &'static str {

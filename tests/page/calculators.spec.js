@@ -9,7 +9,7 @@ const value = async (page, name) => Number(await answer(page, name).getAttribute
 const calculators = {
   resolution: { name: 'value', text: '14', changes: ['arc-seconds', 79.1015625], wrong: '-3' },
   'ssi-line': { name: 'length', text: '100', changes: ['delay', 1600], wrong: 'far' },
-  'bus-round': { name: 'angle-bits', text: '16', changes: ['suspend', 32], wrong: '25' },
+  'bus-timing': { name: 'angle-bits', text: '16', changes: ['suspend', 32], wrong: '25' },
   'apci-1710': { name: 'clock', text: '330', changes: ['frq', 50], wrong: '1100' },
 };
 
@@ -40,7 +40,7 @@ test('a calculator keeps what is entered in its link, and refuses what is imposs
 test('every calculator is in the contents', async ({ page }) => {
   await page.goto('/#/reference');
   const contents = page.getByRole('navigation', { name: 'Reference' });
-  for (const title of ['Resolution', 'SSI line', 'BUS timing', 'APCI-1710']) {
+  for (const title of ['Resolution', 'SSI line', 'BUS timing', 'APCI-1710', 'USB adapters']) {
     await contents.getByRole('link', { name: title, exact: true }).click();
     await expect(at(page, 'calculator').locator('h1')).toHaveText(title);
     await expect(at(page, 'calculator-fault')).toHaveCount(0);

@@ -4,8 +4,10 @@
 #[cfg(target_arch = "wasm32")]
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
+mod adapters;
 mod apci;
 mod calculators;
+mod calculators_laws;
 mod captures;
 mod captures_files;
 mod captures_pieces;
@@ -36,6 +38,7 @@ mod layouts;
 mod own;
 mod pastes;
 mod reference;
+mod resolution;
 mod rivals;
 mod sequences;
 mod sessions;

@@ -32,8 +32,8 @@ const SIXTEEN: Word = Word {
 /// What a byte takes on the wire: a start bit, eight bits and a stop bit.
 const BYTE: f64 = 10.0;
 
-pub(super) const BUS_ROUND: Calculator = Calculator {
-    name: "bus-round",
+pub(super) const BUS_TIMING: Calculator = Calculator {
+    name: "bus-timing",
     title: "BUS timing",
     about: "How long the other devices sleep while one answers, and how often all of them can be asked.",
     source: "MPP and PT, BUS, devices on the bus: T_SUSPEND",
