@@ -1,7 +1,7 @@
 //! The picture of a wiring: narrow enough for a phone, and one wire a line, so that none cross.
 //!
 //! Presentation attributes alone, so that a page without inline styles can show it; what is ink,
-//! dim, line or paper has a class of that name (`w-ink` …) by which a page can recolour it. Wires
+//! dim or paper has a class of that name (`w-ink` …) by which a page can recolour it. Wires
 //! keep their colours, with an outline by which white is seen on paper and black on dark.
 
 use super::{End, OHMS, Paint, Place, Presence, Shield, Terminal, Wire, Wiring};
@@ -14,15 +14,17 @@ use alloc::{
 
 const WIDTH: f64 = 360.0;
 /// From one wire to the next.
-const ROW: f64 = 44.0;
+const ROW: f64 = 48.0;
 /// Where the first wire lies.
-const TOP: f64 = 78.0;
+const TOP: f64 = 72.0;
 /// Edges of the encoder's box.
 const ENCODER: (f64, f64) = (6.0, 128.0);
 /// Edges of the boxes at the other end.
 const OTHER: (f64, f64) = (250.0, 354.0);
 /// Edges of the shield.
 const SHIELD: (f64, f64) = (149.0, 221.0);
+
+const BOLD: &str = " font-weight=\"600\"";
 
 /// Draws a wiring as SVG: well-formed, self-contained, without styles or scripts.
 #[must_use]
@@ -38,12 +40,12 @@ pub fn svg(wiring: &Wiring) -> String {
     let mut ink = Ink::default();
     encoder(&mut ink, wiring, &rows);
     shield(&mut ink, wiring, &rows);
-    ground(&mut ink, wiring, &rows);
     for row in &rows {
         if let Some(wire) = row.wire {
             draw(&mut ink, wire, row.y);
         }
     }
+    ground(&mut ink, wiring, &rows);
     others(&mut ink, wiring, &rows);
     resistors(&mut ink, wiring, &rows);
     let last = rows.last().map_or(TOP, |row| row.y);
@@ -133,34 +135,22 @@ fn height_of(rows: &[Row<'_>], signal: &str) -> Option<f64> {
 fn encoder(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
     let (left, right) = ENCODER;
     let last = rows.last().map_or(TOP, |row| row.y);
-    ink.frame((left, TOP - 40.0), (right, last + 22.0));
+    ink.frame((left, TOP - 34.0), (right, last + 22.0));
     let name = format!(
         "{} {}",
         wiring.setup.series.name(),
         wiring.setup.interface.title()
     );
-    ink.text(
-        (left + 10.0, TOP - 23.0),
-        "w-ink",
-        12,
-        " font-weight=\"600\"",
-        &name,
-    );
-    let volts = wiring.supply.volts;
-    let supply = format!("{}…{} V", volts.0, volts.1);
-    ink.text((left + 2.0, TOP - 52.0), "w-dim", 12, "", "encoder");
-    ink.text((OTHER.0 + 2.0, TOP - 52.0), "w-dim", 12, "", &supply);
+    let (low, high) = wiring.supply.volts;
+    let supply = format!("{low}…{high} V");
+    let y = TOP - 46.0;
+    ink.text((left + 2.0, y), "w-ink", 13, BOLD, &name);
+    ink.text((OTHER.0 + 2.0, y), "w-dim", 12, "", &supply);
     for row in rows {
         let Some(wire) = row.wire else { continue };
         if let Some(pin) = wire.pin {
-            let mono = " font-family=\"ui-monospace, 'DejaVu Sans Mono', monospace\"";
-            ink.text(
-                (left + 12.0, row.y + 4.0),
-                "w-dim",
-                12,
-                mono,
-                &pin.to_string(),
-            );
+            let at = (left + 12.0, row.y + 4.0);
+            ink.text(at, "w-dim", 12, "", &pin.to_string());
         }
         ink.text((left + 28.0, row.y + 4.0), "w-ink", 12, "", wire.signal);
     }
@@ -180,62 +170,44 @@ fn draw(ink: &mut Ink, wire: &Wire, y: f64) {
         None => from + 26.0,
     };
     ink.wire((from, to), y, wire.paint);
-    let middle = " text-anchor=\"middle\"";
-    match wire.goes {
-        Some(_) => {
-            if let Some(paint) = wire.paint {
-                let at = ((SHIELD.0 + SHIELD.1) / 2.0, y - 7.0);
-                ink.text(at, "w-dim", 11, middle, &paint.name());
-            }
+    match (wire.goes, wire.paint) {
+        (Some(_), None) => {}
+        (Some(_), Some(paint)) => {
+            let at = ((SHIELD.0 + SHIELD.1) / 2.0, y - 7.0);
+            ink.over(at, " text-anchor=\"middle\"", &paint.name());
         }
-        None => {
-            let paint = wire.paint.map(Paint::name).unwrap_or_default();
-            let text = match paint.is_empty() {
-                true => "not used".to_string(),
-                false => format!("{paint}: not used"),
-            };
-            let x = to + 5.0;
+        (None, paint) => {
+            let paint = paint.map(|paint| format!("{}: ", paint.name()));
+            let text = format!("{}not used", paint.unwrap_or_default());
             ink.path(&[(to, y - 6.0), (to, y + 6.0)], "w-ink", 1.5, "");
-            ink.text((x + 3.0, y + 4.0), "w-dim", 11, "", &text);
+            ink.over((to + 8.0, y + 4.0), "", &text);
         }
     }
 }
 
-/// The boxes at the other end, each around terminals that follow one another.
+/// The boxes at the other end, each around all terminals of its place.
 fn others(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
-    let mut from = 0;
-    while let Some(first) = rows.get(from) {
-        let Some(terminal) = first.terminal else {
-            from += 1;
+    let boxes = [
+        (Place::Supply, "supply"),
+        (Place::Adapter, wiring.setup.adapter.label()),
+        (Place::Battery, "battery"),
+        (Place::Switch, "input"),
+    ];
+    for (place, heading) in boxes {
+        let here = rows.iter().filter_map(|row| {
+            let terminal = row.terminal.filter(|terminal| terminal.place == place);
+            terminal.map(|terminal| (row.y, terminal.name))
+        });
+        let here: Vec<_> = here.collect();
+        let (Some((first, _)), Some((last, _))) = (here.first(), here.last()) else {
             continue;
         };
-        let here = |row: &&Row<'_>| {
-            row.terminal
-                .is_some_and(|other| other.place == terminal.place)
-        };
-        let mine: Vec<&Row<'_>> = rows.iter().skip(from).take_while(here).collect();
-        let last = mine.last().map_or(first.y, |row| row.y);
-        ink.frame((OTHER.0, first.y - 26.0), (OTHER.1, last + 14.0));
-        let heading = match terminal.place {
-            Place::Supply => "supply",
-            Place::Adapter => wiring.setup.adapter.label(),
-            Place::Battery => "battery",
-            Place::Switch => "input",
-        };
-        let at = (OTHER.0 + 10.0, first.y - 12.0);
-        ink.text(at, "w-dim", 11, "", heading);
-        for row in &mine {
-            let name = row.terminal.map_or("", |terminal| terminal.name);
-            ink.text(
-                (OTHER.0 + 22.0, row.y + 4.0),
-                "w-ink",
-                12,
-                " font-weight=\"600\"",
-                name,
-            );
-            ink.dot((OTHER.0, row.y));
+        ink.frame((OTHER.0, first - 26.0), (OTHER.1, last + 14.0));
+        ink.text((OTHER.0 + 10.0, first - 12.0), "w-dim", 11, "", heading);
+        for (y, name) in here {
+            ink.text((OTHER.0 + 18.0, y + 4.0), "w-ink", 12, BOLD, name);
+            ink.dot((OTHER.0, y));
         }
-        from += mine.len().max(1);
     }
 }
 
@@ -302,7 +274,7 @@ fn resistors(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
             (End::Encoder, Presence::Unclear) => (ENCODER.1 - 14.0, "inside?"),
             (End::Encoder, Presence::Inside | Presence::Switched) => (ENCODER.1 - 14.0, "inside"),
             (End::Controller, Presence::Inside | Presence::Unclear) => (OTHER.0 + 12.0, "inside"),
-            (End::Controller, Presence::Switched) => (OTHER.0 + 12.0, "switch on"),
+            (End::Controller, Presence::Switched) => (OTHER.0 + 12.0, "on"),
             (End::Controller, Presence::Added) => (OTHER.0 - 12.0, "add"),
         };
         let dash = match terminator.presence {
@@ -341,8 +313,7 @@ struct Ink {
 /// The colour of a class in a file.
 fn colour(class: &str) -> &'static str {
     match class {
-        "w-dim" => Palette::LIGHT.dim,
-        "w-line" => Palette::LIGHT.line,
+        "w-dim" | "w-dim w-paper-stroke" => Palette::LIGHT.dim,
         "w-paper" => Palette::LIGHT.panel,
         _ => Palette::LIGHT.ink,
     }
@@ -355,6 +326,16 @@ impl Ink {
             "<text class=\"{class}\" fill=\"{fill}\" x=\"{x}\" y=\"{y}\" \
              font-size=\"{size}\"{more}>{text}</text>\n"
         );
+    }
+
+    /// Words over lines, which they hide as far as they reach.
+    fn over(&mut self, at: (f64, f64), more: &str, text: &str) {
+        let paper = colour("w-paper");
+        let halo = format!(
+            " stroke=\"{paper}\" stroke-width=\"4\" stroke-linejoin=\"round\" \
+             paint-order=\"stroke\"{more}"
+        );
+        self.text(at, "w-dim w-paper-stroke", 11, &halo, text);
     }
 
     fn path(&mut self, points: &[(f64, f64)], class: &str, width: f64, more: &str) {

@@ -180,7 +180,7 @@ pub(super) fn of(setup: Setup) -> Vec<Wire> {
                 note: "sets the zero; not on models -H",
                 ..wire(
                     ("PRESET1", Level),
-                    Some(terminal(Place::Switch, "push button", Level)),
+                    Some(terminal(Place::Switch, "button", Level)),
                 )
             };
             supplied("supply +", "GND")
