@@ -1,18 +1,22 @@
-//! What USB adapters can do: the baud rates that their chips make.
+//! What USB adapters can do: the baud rates that their chips make, and what their drivers need.
 //!
 //! Drivers accept any rate and use the nearest one that the chip makes; a UART bears about 2 %.
 //! The rates of FTDI chips follow from their dividers (AN232B-05; Linux `ftdi_sio`), those of the
-//! others are what their makers' tables end at.
+//! others are what their makers' data sheets end at.
 
-/// A chip, known by its maker's USB identity.
+mod system;
+
+pub use system::System;
+
+/// A chip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chip {
-    /// USB vendor.
-    pub vendor: u16,
-    /// USB product.
-    pub product: u16,
     /// What it is called.
     pub name: &'static str,
+    /// USB vendor and product, where they tell it from others.
+    pub identity: Option<(u16, u16)>,
+    /// What to know about it.
+    pub note: &'static str,
     clock: Clock,
 }
 
@@ -38,29 +42,80 @@ pub enum Made {
     Unknown,
 }
 
-/// The share by which two UARTs may differ.
+/// The share by which two UARTs may differ (Silicon Labs, CP2104 data sheet, 6.1).
 pub const TOLERANCE: f64 = 0.02;
 
-const fn chip(vendor: u16, product: u16, name: &'static str, clock: Clock) -> Chip {
+/// How long an FTDI chip holds a short reply unless told otherwise, in milliseconds (AN232B-04).
+pub const LATENCY: f64 = 16.0;
+/// The least that it can be told.
+pub const LEAST_LATENCY: f64 = 1.0;
+
+const fn chip(
+    name: &'static str,
+    identity: Option<(u16, u16)>,
+    clock: Clock,
+    note: &'static str,
+) -> Chip {
     Chip {
-        vendor,
-        product,
         name,
+        identity,
+        note,
         clock,
     }
 }
 
+const HIGH_SPEED: Clock = Clock::Eighths(12_000_000);
+const FULL_SPEED: Clock = Clock::Eighths(3_000_000);
+
 /// Chips of common adapters.
 pub static CHIPS: &[Chip] = &[
-    chip(0x0403, 0x6001, "FT232R", Clock::Eighths(3_000_000)),
-    chip(0x0403, 0x6010, "FT2232H", Clock::Eighths(12_000_000)),
-    chip(0x0403, 0x6011, "FT4232H", Clock::Eighths(12_000_000)),
-    chip(0x0403, 0x6014, "FT232H", Clock::Eighths(12_000_000)),
-    chip(0x0403, 0x6015, "FT230X", Clock::Eighths(3_000_000)),
-    chip(0x067b, 0x2303, "PL2303", Clock::Unknown),
-    chip(0x10c4, 0xea60, "CP210x", Clock::Unknown),
-    chip(0x1a86, 0x55d3, "CH343", Clock::Unknown),
-    chip(0x1a86, 0x7523, "CH340", Clock::UpTo(2_000_000)),
+    chip("FT232H", Some((0x0403, 0x6014)), HIGH_SPEED, ""),
+    chip(
+        "FT2232H",
+        Some((0x0403, 0x6010)),
+        HIGH_SPEED,
+        "the older FT2232D says the same of itself and does as FT232R",
+    ),
+    chip("FT4232H", Some((0x0403, 0x6011)), HIGH_SPEED, ""),
+    chip("FT232R", Some((0x0403, 0x6001)), FULL_SPEED, ""),
+    chip("FT230X", Some((0x0403, 0x6015)), FULL_SPEED, ""),
+    chip("FT2232D", None, FULL_SPEED, ""),
+    chip(
+        "CH340",
+        Some((0x1a86, 0x7523)),
+        Clock::UpTo(2_000_000),
+        "its maker's list ends at 2 Mbaud, that of the CH341 too",
+    ),
+    chip(
+        "CH343",
+        Some((0x1a86, 0x55d3)),
+        Clock::Unknown,
+        "reaches 3 Mbaud and more, the CH347 too; in which steps is not published: measure",
+    ),
+    chip(
+        "CP210x",
+        Some((0x10c4, 0xea60)),
+        Clock::Unknown,
+        "CP2102, CP2104 and CP2102N say the same of themselves",
+    ),
+    chip(
+        "CP2104",
+        None,
+        Clock::UpTo(2_000_000),
+        "its data sheet ends at 2 Mbaud, that of the CP2102 earlier",
+    ),
+    chip(
+        "CP2102N",
+        None,
+        Clock::Unknown,
+        "reaches 3 Mbaud; in which steps is not established: measure",
+    ),
+    chip(
+        "PL2303",
+        Some((0x067b, 0x2303)),
+        Clock::Unknown,
+        "many versions and copies: measure, and take another for 2.5 Mbaud",
+    ),
 ];
 
 impl Chip {
@@ -69,7 +124,7 @@ impl Chip {
     pub fn of(vendor: u16, product: u16) -> Option<&'static Self> {
         CHIPS
             .iter()
-            .find(|chip| (chip.vendor, chip.product) == (vendor, product))
+            .find(|chip| chip.identity == Some((vendor, product)))
     }
 
     /// What it makes of a baud rate.
@@ -92,7 +147,7 @@ impl Chip {
                 let eighths = (base * 8.0 / asked).max(16.0);
                 let below = eighths as u64 as f64;
                 let dividers = [below / 8.0, (below + 1.0) / 8.0, 1.0, 1.5];
-                let apart = |rate: f64| abs(rate - asked);
+                let apart = |rate: f64| (rate - asked).abs();
                 dividers
                     .iter()
                     .map(|divider| base / divider)
@@ -102,13 +157,9 @@ impl Chip {
                     })
             }
         };
-        match abs(nearest - asked) <= asked * TOLERANCE {
+        match (nearest - asked).abs() <= asked * TOLERANCE {
             true => Made::Rate(nearest),
             false => Made::Not(nearest),
         }
     }
-}
-
-fn abs(value: f64) -> f64 {
-    if value < 0.0 { -value } else { value }
 }

@@ -16,6 +16,7 @@
 //! # Ok::<(), encoderscope::calculator::Fault>(())
 //! ```
 
+mod adapters;
 pub mod quantity;
 mod resolution;
 
@@ -109,7 +110,7 @@ pub struct Outcome {
 /// One answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// Its name, in kebab-case.
+    /// Its name, which no translation changes.
     pub name: &'static str,
     /// What it is.
     pub title: String,
@@ -154,7 +155,7 @@ impl fmt::Display for Fault {
 impl core::error::Error for Fault {}
 
 /// All calculators, in the order in which they are offered.
-pub static CALCULATORS: &[Calculator] = &[resolution::RESOLUTION];
+pub static CALCULATORS: &[Calculator] = &[resolution::RESOLUTION, adapters::ADAPTERS];
 
 impl Calculator {
     /// The calculator of a name.

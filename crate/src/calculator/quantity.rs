@@ -100,11 +100,18 @@ impl Measure {
 /// ```
 pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
     let text = text.trim();
-    let is_digit = |letter: char| letter.is_ascii_digit() || matches!(letter, '.' | ',');
-    let is_sign = |letter: char| matches!(letter, '-' | '−' | '+');
-    let end = text
-        .find(|letter: char| !(is_digit(letter) || is_sign(letter) || letter.is_whitespace()))
-        .unwrap_or(text.len());
+    let is_part = |letter: char| letter.is_ascii_digit() || ".,-−+".contains(letter);
+    let after = |from: usize, is_part: &dyn Fn(char) -> bool| {
+        let rest = text.get(from..).unwrap_or("");
+        from + rest.find(|letter| !is_part(letter)).unwrap_or(rest.len())
+    };
+    let mut end = after(0, &|letter| is_part(letter) || letter.is_whitespace());
+    let exponent = text
+        .get(end..)
+        .and_then(|rest| rest.strip_prefix(['e', 'E']));
+    if exponent.is_some_and(|rest| rest.starts_with(is_part)) {
+        end = after(end + 1, &is_part);
+    }
     let (digits, name) = text.split_at(end);
     let digits: String = digits
         .chars()
@@ -123,7 +130,7 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
     };
     let of = |name: &str| measure.scale(name).unwrap_or(1.0);
     match name.trim() {
-        "" => Ok(number),
+        name if name.is_empty() || name == unit => Ok(number),
         name => measure
             .scale(name)
             .map(|scale| number * (scale / of(unit)))

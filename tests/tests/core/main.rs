@@ -4,6 +4,7 @@
 #[cfg(target_arch = "wasm32")]
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
+mod adapters;
 mod captures;
 mod captures_files;
 mod captures_pieces;
@@ -34,6 +35,7 @@ mod layouts;
 mod own;
 mod pastes;
 mod reference;
+mod resolution;
 mod rivals;
 mod sequences;
 mod sessions;

@@ -5,10 +5,11 @@ use crate::{
     ports::{AllTheSame, Obstacle},
 };
 use encoderscope::{
-    adapter::Made,
+    adapter::{LATENCY, LEAST_LATENCY, Made},
     decode::Decoder,
     explain::grouped,
     format::{Format, Link as Way},
+    product::{Interface, Series},
     profile::Profile,
 };
 use encoderscope_web::{
@@ -284,14 +285,44 @@ fn link_text(link: &Link, app: App) -> (&'static str, String) {
     }
 }
 
-/// FTDI adapters hold short replies for 16 ms unless told otherwise.
-fn slow_text(snapshot: &Snapshot) -> String {
-    let held = snapshot
+/// Whether replies come as late as FTDI adapters hold short ones unless told otherwise.
+fn is_held(snapshot: &Snapshot) -> bool {
+    let held = LATENCY - 2.0..LATENCY + 4.0;
+    snapshot
         .latency
-        .is_some_and(|latency| (14.0..20.0).contains(&latency));
-    match held {
-        true => "Replies are held for 16 ms: set the adapter's latency timer to 1 ms.".into(),
+        .is_some_and(|latency| held.contains(&latency))
+}
+
+fn slow_text(snapshot: &Snapshot) -> String {
+    match is_held(snapshot) {
+        true => format!(
+            "Replies are held for {LATENCY} ms: set the adapter's latency timer to \
+             {LEAST_LATENCY} ms."
+        ),
         false => String::new(),
+    }
+}
+
+/// The page of the reference that helps with what the link is now.
+fn help(app: App, obstacle: Option<&Obstacle>) -> Option<(String, &'static str)> {
+    let profile = app.profile.get();
+    let adapters = || format!("#/reference?page=adapters&rate={}", profile.baud);
+    let wiring = || {
+        let speaks = |known: &Interface| known.format() == profile.format;
+        let interface = Interface::ALL.into_iter().find(speaks)?;
+        let comes_with = |known: &Series| known.interfaces().contains(&interface);
+        let series = Series::ALL.into_iter().find(comes_with)?;
+        let (series, interface) = (series.key(), interface.key());
+        let page = format!("#/reference?page=wiring&series={series}&interface={interface}");
+        Some((page, "Which wire goes where"))
+    };
+    let snapshot = app.snapshot.get();
+    match (obstacle, &snapshot.link) {
+        (Some(Obstacle::RateNotMade(_)), _) => Some((adapters(), "Adapters that make this rate")),
+        (None, Link::Silent { .. } | Link::Garbage) => wiring(),
+        (None, Link::Refused { .. }) => Some((adapters(), "What must be allowed")),
+        (None, Link::Reading) if is_held(&snapshot) => Some((adapters(), "How to set it")),
+        _ => None,
     }
 }
 
@@ -303,6 +334,7 @@ pub(crate) fn LinkState() -> impl IntoView {
     let rungs = Memo::new(move |_| ladder(app));
     let obstacle = Memo::new(move |_| obstacle(app));
     let fails = Memo::new(move |_| obstacle.get().is_some() || height(&link.get()).1);
+    let help = Memo::new(move |_| help(app, obstacle.get().as_ref()));
     let name = move || {
         let obstacle = obstacle.get();
         obstacle.map_or_else(|| link.get().name(), |obstacle| obstacle.name())
@@ -324,6 +356,9 @@ pub(crate) fn LinkState() -> impl IntoView {
             <p class=move || if fails.get() { "lamp bad" } else { "named" }>{move || text.get().0}</p>
             {move || Some(text.get().1).filter(|hint| !hint.is_empty()).map(|hint| view! {
                 <p class="hint" role=obstacle.get().map(|_| "alert")>{hint}</p>
+            })}
+            {move || help.get().map(|(href, text)| view! {
+                <p class="help"><a data-testid="link-help" href=href>{text}</a></p>
             })}
         </div>
         <AllTheSame />

@@ -25,7 +25,7 @@ use encoderscope::{
     format::Format,
     profile::Profile,
 };
-use leptos::prelude::*;
+use leptos::{ev, html, prelude::*};
 use topic::Topic;
 
 #[component]
@@ -126,21 +126,51 @@ fn Contents() -> impl IntoView {
         let there = Leaf::Calculator(calculator.name);
         leaf(there, filled_link(there, &[]), calculator.title)
     };
+    // On a narrow page the list would push the page itself out of sight: it is folded there.
+    let list = NodeRef::<html::Details>::new();
+    let fold = move || {
+        if let Some(list) = list.get_untracked() {
+            list.set_open(is_wide());
+        }
+    };
+    let wide = StoredValue::new(is_wide());
+    let resize = window_event_listener(ev::resize, move |_| {
+        // A phone resizes its page while it is scrolled.
+        if wide.get_value() != is_wide() {
+            wide.set_value(is_wide());
+            fold();
+        }
+    });
+    on_cleanup(move || resize.remove());
+    Effect::new(move || {
+        let _ = (list.get(), book.leaf.get(), format.get());
+        fold();
+    });
     view! {
-        <div role="navigation" aria-label="Reference">
-            <h2>"Frames"</h2>
-            <ul>
-                {leaf(Leaf::Overview, "#/reference".to_owned(), "All formats")}
-                {Format::ALL.iter().map(|known| page(*known)).collect_view()}
-                {own}
-                {leaf(Leaf::Errata, book::errata_link(None), "Errors in the manuals")}
-            </ul>
-            <h2>"The encoder in the hand"</h2>
-            <ul>{Topic::ALL.map(topic).into_view()}</ul>
-            <h2>"Calculators"</h2>
-            <ul>{CALCULATORS.iter().map(calculator).collect_view()}</ul>
-        </div>
+        <details class="list" node_ref=list>
+            <summary>"Contents"</summary>
+            <div role="navigation" aria-label="Reference">
+                <h2>"The encoder in the hand"</h2>
+                <ul>{Topic::ALL.map(topic).into_view()}</ul>
+                <h2>"Calculators"</h2>
+                <ul>{CALCULATORS.iter().map(calculator).collect_view()}</ul>
+                <h2>"Frames"</h2>
+                <ul>
+                    {leaf(Leaf::Overview, "#/reference".to_owned(), "All of it")}
+                    {Format::ALL.iter().map(|known| page(*known)).collect_view()}
+                    {own}
+                    {leaf(Leaf::Errata, book::errata_link(None), "Errors in the manuals")}
+                </ul>
+            </div>
+        </details>
     }
+}
+
+/// Whether the contents have room beside the page.
+fn is_wide() -> bool {
+    let width = window().inner_width().ok();
+    let width = width.and_then(|width| width.as_f64()).unwrap_or(0.0);
+    width > 1000.0
 }
 
 /// The parts of the page that is open.

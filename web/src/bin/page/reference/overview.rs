@@ -1,13 +1,16 @@
-//! All formats at a glance, and the layouts of other makers that come with the program.
+//! All of the reference at a glance: formats, the layouts of other makers that come with the
+//! program, products and calculators.
 
 use super::{
     Scroll,
-    book::{errata_link, link},
+    book::{Leaf, errata_link, filled_link, link},
     format::Facts,
     kinds,
+    topic::Topic,
 };
 use crate::app::App;
 use encoderscope::{
+    calculator::CALCULATORS,
     errata::ERRATA,
     format::{Format, own::SHIPPED},
     profile::Profile,
@@ -39,6 +42,19 @@ pub(super) fn Overview() -> impl IntoView {
             Some(row(profile, shipped.source, false))
         })
         .collect();
+    let entry = |leaf: Leaf, title: &'static str, about: &'static str| {
+        view! {
+            <div>
+                <dt><a href=filled_link(leaf, &[])>{title}</a></dt>
+                <dd>{about}</dd>
+            </div>
+        }
+    };
+    let topics = Topic::ALL.map(|topic| entry(Leaf::Topic(topic), topic.title(), topic.about()));
+    let calculators = CALCULATORS.iter().map(|calculator| {
+        let leaf = Leaf::Calculator(calculator.name);
+        entry(leaf, calculator.title, calculator.about)
+    });
     let heads = |about: &'static str| {
         let names = ["format", about, "wires", "frame", "check", "rate"];
         names
@@ -50,9 +66,17 @@ pub(super) fn Overview() -> impl IntoView {
             <header class="head">
                 <h1>"Reference"</h1>
                 <p class="about">
-                    "Every frame, request, check and status bit, out of the tables that this page decodes with."
+                    "From the label on the encoder to the first angle; every frame, request, check and status bit, out of the tables that this page decodes with."
                 </p>
             </header>
+            <section class="part" aria-labelledby="hand-title">
+                <h2 id="hand-title">"With the encoder in the hand"</h2>
+                <dl class="topics">{topics.into_view()}</dl>
+            </section>
+            <section class="part" aria-labelledby="calculators-title">
+                <h2 id="calculators-title">"Calculators"</h2>
+                <dl class="topics">{calculators.collect_view()}</dl>
+            </section>
             <section class="part" aria-labelledby="formats-title">
                 <h2 id="formats-title">"Formats of the manuals"</h2>
                 <Scroll label="Formats of the manuals".to_owned()>

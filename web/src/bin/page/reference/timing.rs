@@ -35,7 +35,7 @@ pub(super) fn times(profile: &Profile, kinds: &[Kind]) -> Vec<Time> {
         times.push(Time {
             name: "rate",
             text: format!(
-                "{} baud, 8 bits, no parity, 1 stop bit: a byte lasts {}",
+                "{} baud, 8 bits, the least significant first, no parity, 1 stop bit, no flow control: a byte lasts {}",
                 grouped(profile.baud.into()),
                 lasts(8)
             ),

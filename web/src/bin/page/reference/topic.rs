@@ -59,6 +59,22 @@ impl Topic {
         }
     }
 
+    /// What it answers, in a sentence.
+    pub(super) const fn about(self) -> &'static str {
+        match self {
+            Self::OrderCode => {
+                "What the label says: format, widths, rate and wires of an order code, and what is wrong with one."
+            }
+            Self::Products => "What the manuals promise of each series, and the sizes it comes in.",
+            Self::Wiring => "Which wire goes where, with terminators, supply and battery.",
+            Self::Zero => "How the zero of each product is set, step by step.",
+            Self::Lamp => "What the lamp shows, what the status bits say, and what to do.",
+            Self::Registers => {
+                "The registers of Addi-Data's APCI-1710 and CPCI-1710, bit by bit, and what the encoder sent."
+            }
+        }
+    }
+
     /// Whether it works with the shared profile.
     pub(super) const fn has_profile(self) -> bool {
         matches!(self, Self::Registers)
@@ -80,6 +96,7 @@ pub(super) fn Page(topic: Topic) -> impl IntoView {
         <article class="sheet" data-testid="reference-topic" data-name=topic.name()>
             <header class="head">
                 <h1>{topic.title()}</h1>
+                <p class="about">{topic.about()}</p>
             </header>
             {page}
         </article>
