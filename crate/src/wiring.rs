@@ -17,12 +17,14 @@
 //! ```
 
 mod advice;
+mod entry;
 mod paint;
 mod picture;
 mod pins;
 mod refusal;
 mod terminators;
 
+pub use entry::encoder;
 pub use paint::{Colour, Paint};
 pub use picture::svg;
 pub(crate) use refusal::exists;
