@@ -53,7 +53,8 @@ fn work(calculator: &Calculator, book: Book) -> Result<Outcome, Fault> {
     })
 }
 
-fn sentence(fault: &Fault) -> String {
+/// What is wrong, as a sentence.
+pub(super) fn sentence(fault: &Fault) -> String {
     let mut letters = fault.message.chars();
     let first = letters.next().map(char::to_uppercase);
     first
