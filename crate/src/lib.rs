@@ -16,8 +16,10 @@
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`crc_search`]: the checksum of frames of an unknown format;
 //! - [`export`]: decoders as source, frames as tables;
-//! - [`product`]: what is sold; [`model`]: order codes; [`calculator`]: what is worked out on paper;
-//!   [`adapter`]: what USB adapters can do.
+//! - [`product`]: what is sold; [`model`]: order codes; [`wiring`]: which wire goes where;
+//!   [`procedure`]: how the zero of each product is set; [`lamp`]: what an encoder's LED says;
+//! - [`calculator`]: what is worked out on paper; [`adapter`]: what USB adapters can do;
+//!   [`apci1710`]: the registers of a board that clocks SSI encoders.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
 //! that was chosen.
@@ -32,6 +34,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod adapter;
+pub mod apci1710;
 pub mod bits;
 pub mod calculator;
 pub mod capture;
@@ -51,8 +54,10 @@ pub mod finder;
 pub mod format;
 pub mod framing;
 pub mod history;
+pub mod lamp;
 pub mod layout;
 pub mod model;
+pub mod procedure;
 pub mod product;
 pub mod profile;
 pub mod reading;
@@ -62,3 +67,4 @@ pub mod session;
 pub mod sheet;
 pub mod sketch;
 pub mod standstill;
+pub mod wiring;

@@ -21,6 +21,7 @@ mod table;
 mod theme;
 mod waves;
 
+pub(crate) use pen::{escaped, number};
 pub use theme::{Palette, Theme};
 
 use super::Timeline;

@@ -34,7 +34,7 @@ pub(crate) fn pictures(frame: &Frame<'_>, style: &Style) -> [String; 2] {
 
 /// The text of an XML document, if it is well-formed: elements nest, attributes are quoted and
 /// named once, and only the five entities are used.
-fn text_of(xml: &str) -> Result<String, String> {
+pub(crate) fn text_of(xml: &str) -> Result<String, String> {
     let mut open: Vec<&str> = Vec::new();
     let mut text = String::new();
     let mut rest = xml;

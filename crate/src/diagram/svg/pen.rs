@@ -125,14 +125,14 @@ pub(super) fn wrapped(text: &str, room: f64, letter: f64) -> Vec<String> {
 }
 
 /// At most two digits behind the point.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0" } else { text }.to_string()
 }
 
 /// Text as it stands in XML; what XML cannot hold is left out.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for letter in text.chars() {
         match letter {

@@ -7,6 +7,7 @@ use crate::{
 use encoderscope::{
     explain::{grouped, grouped_signed},
     format::blinks,
+    lamp::{Health, Light},
 };
 use encoderscope_web::message::{Lamp, Link, Shown, Snapshot};
 use leptos::prelude::*;
@@ -106,15 +107,24 @@ fn Turning() -> impl IntoView {
     }
 }
 
-/// Colour of the encoder's own LED (MPP and PT, "LED").
+/// Colour of the encoder's own LED.
 fn led(shown: &Shown) -> (&'static str, &'static str) {
-    match (shown.error, shown.warning) {
-        (true, _) => ("bad", "red: the position is not valid"),
-        (false, true) => (
-            "warn",
-            "yellow: the position is valid, something is near its limit",
-        ),
-        (false, false) => ("good", "green"),
+    let health = Health {
+        error: shown.error,
+        warning: shown.warning,
+        status: 0,
+    };
+    let light = health.light();
+    (tone(light), light.meaning())
+}
+
+/// The class of a lamp in a colour.
+pub(crate) const fn tone(light: Light) -> &'static str {
+    match light {
+        Light::Red => "bad",
+        Light::Yellow => "warn",
+        Light::Green => "good",
+        Light::Dark => "off",
     }
 }
 

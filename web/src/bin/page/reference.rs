@@ -3,6 +3,7 @@
 mod book;
 mod calculator;
 mod checks;
+mod choice;
 mod commands;
 mod errata;
 mod format;

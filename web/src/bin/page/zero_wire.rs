@@ -2,15 +2,13 @@
 //! stream and ticks what it sees (IP-75, 5.1.1).
 
 use crate::app::{App, Source};
-use encoderscope::{format::Format, session::Micros};
+use encoderscope::{format::Format, procedure::HOLD, session::Micros};
 use encoderscope_web::{
     browser::now,
     message::{Link, Shown, Snapshot, Supply, ToEngine},
 };
 use leptos::prelude::*;
 
-/// The input acts when it has been held so long.
-const HOLD: Micros = 3_000_000;
 /// What has not been seen by then has not happened.
 const VERDICT: Micros = 4_000_000;
 /// The angle is near another when they are so close, in degrees: the shaft may turn a little.

@@ -200,6 +200,11 @@ impl Book {
         })
     }
 
+    /// All that is filled in.
+    pub(super) fn filled(self) -> Vec<(String, String)> {
+        self.entries.get()
+    }
+
     /// Fills something in.
     pub(super) fn enter(self, name: &str, value: &str) {
         self.entries.update(
