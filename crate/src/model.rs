@@ -172,6 +172,13 @@ pub fn look(code: &str) -> Vec<Look> {
     looks
 }
 
+/// What does not go together (MPP and PT: T485 note 2, BUS versions and example, baud codes).
+pub const RULES: [&str; 4] = [T485_ONLY, BUS_ONLY, M1_ONLY, BAUD_ONLY];
+const T485_ONLY: &str = "T485 comes with 17M, 17BM, 17FM, 23M, 23BM or 23FM only";
+const BUS_ONLY: &str = "BUS comes without a turn counter or with M; BM and FM do not exist";
+const M1_ONLY: &str = "M1 exists with BUS only; nothing, M, BM or FM fits";
+const BAUD_ONLY: &str = "only RS485 and RS422, letters R and A, have a baud code; M fits";
+
 /// Only the smallest program has no room for the words.
 const IS_TERSE: bool = cfg!(feature = "small");
 
@@ -289,8 +296,7 @@ impl Model {
         }
     }
 
-    /// The part that does not go with the others, and why (MPP and PT: T485 note 2, BUS version
-    /// table, baud codes).
+    /// The part that does not go with the others, and which of the [`RULES`] says so.
     fn impossible(&self) -> Option<(Place, &'static str)> {
         let says_baud = |token: &Token| matches!(token.word.says, Says::Baud(_));
         let Profile {
@@ -300,24 +306,16 @@ impl Model {
         } = self.profile;
         match self.interface {
             Interface::T485 if !matches!(angle_bits, 17 | 23) || !matches!(turns_bits, 16) => {
-                Some((
-                    Place::Resolution,
-                    "T485 comes with 17M, 17BM, 17FM, 23M, 23BM or 23FM only",
-                ))
+                Some((Place::Resolution, T485_ONLY))
             }
-            Interface::Bus if matches!(self.turns, Turns::Battery | Turns::Flash) => Some((
-                Place::Resolution,
-                "BUS comes without a turn counter or with M; BM and FM do not exist",
-            )),
-            interface if turns_bits == 8 && interface != Interface::Bus => Some((
-                Place::Resolution,
-                "M1 exists with BUS only; nothing, M, BM or FM fits",
-            )),
+            Interface::Bus if matches!(self.turns, Turns::Battery | Turns::Flash) => {
+                Some((Place::Resolution, BUS_ONLY))
+            }
+            interface if turns_bits == 8 && interface != Interface::Bus => {
+                Some((Place::Resolution, M1_ONLY))
+            }
             Interface::Rs485 | Interface::Rs422 => None,
-            _ if self.tokens.iter().any(says_baud) => Some((
-                Place::Option,
-                "only RS485 and RS422, letters R and A, have a baud code; M fits",
-            )),
+            _ if self.tokens.iter().any(says_baud) => Some((Place::Option, BAUD_ONLY)),
             _ => None,
         }
     }

@@ -87,6 +87,9 @@ test('a Russian label is read, and its link keeps it', async ({ page }) => {
 
 test('the composer writes the code', async ({ page }) => {
   await open(page);
+  // All letters of the order code, without any code: 1, 1, 1, 1, 5, 7, 1, 3 and 3.
+  await expect(at(page, 'order-legend')).toHaveCount(23);
+  await expect(at(page, 'order-legend').filter({ hasText: '115 200 baud' })).toHaveCount(1);
   await compose(page, 'series').selectOption('PT');
   await expect(input(page)).toHaveValue('PT-20-30-A-24BM-R-N-A-M');
   await compose(page, 2).selectOption('15B');

@@ -11,11 +11,11 @@ use crate::{
         calculator::CopyLink,
     },
 };
-use composer::Composer;
+use composer::{Composer, form_of};
 use encoderscope::{
     explain::grouped,
     format::Link,
-    model::{self, FORMS, Look, Model, ModelError, Place, Turns},
+    model::{self, FORMS, Form, Look, Model, ModelError, Place, RULES, Turns},
     product::{
         Interface, Series,
         facts::{CURRENT, SUPPLY},
@@ -77,6 +77,7 @@ pub(super) fn Page() -> impl IntoView {
         </section>
         {meaning}
         <Composer looks=looks />
+        <Legend looks=looks />
         <CopyLink />
     }
 }
@@ -316,4 +317,73 @@ fn turns(model: &Model) -> String {
         Turns::Gear => "by a mechanical gear, with or without power",
     };
     format!("{bits} bits, {kept}")
+}
+
+/// All that can stand in a code of the form that is open.
+#[component]
+fn Legend(looks: Memo<Vec<Look>>) -> impl IntoView {
+    let form = Memo::new(move |_| looks.with(|looks| form_of(looks)));
+    let rows = move || {
+        let parts = form.get().parts.iter().zip(1..);
+        parts
+            .flat_map(|(part, position)| {
+                let words = part.words.iter().enumerate();
+                words.map(move |(index, word)| {
+                    let text = match (part.number, word.text) {
+                        (None, "") => "nothing".to_owned(),
+                        (None, text) => text.to_owned(),
+                        (Some((least, most, _)), text) => format!("{least}{text} … {most}{text}"),
+                    };
+                    let unit = part.number.map_or("", |(_, _, unit)| unit);
+                    let doc = match word.doc {
+                        "" => unit.to_owned(),
+                        doc if unit.is_empty() => doc.to_owned(),
+                        doc => format!("{unit}, {doc}"),
+                    };
+                    let (position, name) = match index {
+                        0 => (position.to_string(), part.place.name()),
+                        _ => (String::new(), ""),
+                    };
+                    view! {
+                        <tr data-testid="order-legend">
+                            <td>{position}</td>
+                            <td class="words">{name}</td>
+                            <td>{text}</td>
+                            <td class="words">{doc}</td>
+                        </tr>
+                    }
+                })
+            })
+            .collect_view()
+    };
+    view! {
+        <section class="part" aria-labelledby="order-legend">
+            <h2 id="order-legend">"All that a code can say"</h2>
+            <Scroll label="All that a code can say".to_owned()>
+                <table>
+                    <caption>{move || format!("{}: {}", form.get().title, form.get().source)}</caption>
+                    <thead>
+                        <tr>
+                            <th scope="col">"part"</th>
+                            <th scope="col">"what it is"</th>
+                            <th scope="col">"text"</th>
+                            <th scope="col">"what it means"</th>
+                        </tr>
+                    </thead>
+                    <tbody>{rows}</tbody>
+                </table>
+            </Scroll>
+            {move || has_rules(form.get()).then(|| view! {
+                <ul class="order-rules">
+                    {RULES.map(|rule| view! { <li>{rule}</li> }).into_view()}
+                </ul>
+            })}
+        </section>
+    }
+}
+
+/// Whether there are parts of a form that do not go together.
+fn has_rules(form: &Form) -> bool {
+    let mut parts = form.parts.iter();
+    parts.any(|part| part.place == Place::Resolution)
 }

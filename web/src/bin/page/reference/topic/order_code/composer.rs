@@ -134,7 +134,7 @@ fn series_of(looks: &[Look]) -> String {
 }
 
 /// The form of a code; the first where there is none yet.
-fn form_of(looks: &[Look]) -> &'static Form {
+pub(super) fn form_of(looks: &[Look]) -> &'static Form {
     let found = starts(&series_of(looks)).map(|(form, _)| form);
     found.unwrap_or(&FORMS[0])
 }
