@@ -107,13 +107,6 @@ fn interface(setup: Setup) -> Vec<Advice> {
              the maker for more than two."
                 .into(),
         )),
-        Interface::Rs485 | Interface::T485 => said.push((
-            "terminator",
-            "MPP and PT, RS485 and T485",
-            "MPP and PT contradict each other: MPP asks for terminators at both ends and names \
-             none inside, PT has the encoder's inside. Measure before adding a third."
-                .into(),
-        )),
         Interface::Ssi | Interface::BissC | Interface::Ssi7 | Interface::SsiTree => said.push((
             "clocked",
             "MPP and PT, SSI and BiSS-C; IP-75, 5.4.1; P+F article",
@@ -121,7 +114,19 @@ fn interface(setup: Setup) -> Vec<Advice> {
              cannot read it at all."
                 .into(),
         )),
-        Interface::Rs422 => {}
+        Interface::Rs422 | Interface::Rs485 | Interface::T485 => {}
+    }
+    if matches!(
+        setup.interface,
+        Interface::Rs485 | Interface::T485 | Interface::Period
+    ) {
+        said.push((
+            "terminator",
+            "MPP and PT, RS485, T485 and PERIOD",
+            "MPP and PT contradict each other: MPP asks for terminators at both ends and names \
+             none inside, PT has the encoder's inside. Measure before adding a third."
+                .into(),
+        ));
     }
     if (setup.interface, setup.battery) == (Interface::Bus, Battery::Fitted) {
         said.push((

@@ -50,3 +50,4 @@ mod tables;
 mod vectors;
 mod vectors_ssi;
 mod wiring;
+mod wiring_pictures;
