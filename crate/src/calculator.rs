@@ -17,8 +17,11 @@
 //! ```
 
 mod adapters;
+mod apci1710;
+mod bus_timing;
 pub mod quantity;
 mod resolution;
+mod ssi_line;
 
 use alloc::{
     format,
@@ -105,6 +108,19 @@ enum Entered {
 pub struct Outcome {
     /// The answers, in the order in which they are read.
     pub answers: Vec<Answer>,
+    /// A program with the answers filled in.
+    pub code: Option<Code>,
+}
+
+/// A program with the answers filled in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Code {
+    /// What it does.
+    pub title: &'static str,
+    /// The name of its file.
+    pub file: &'static str,
+    /// The program.
+    pub text: String,
 }
 
 /// One answer.
@@ -155,7 +171,13 @@ impl fmt::Display for Fault {
 impl core::error::Error for Fault {}
 
 /// All calculators, in the order in which they are offered.
-pub static CALCULATORS: &[Calculator] = &[resolution::RESOLUTION, adapters::ADAPTERS];
+pub static CALCULATORS: &[Calculator] = &[
+    resolution::RESOLUTION,
+    ssi_line::SSI_LINE,
+    bus_timing::BUS_TIMING,
+    apci1710::APCI_1710,
+    adapters::ADAPTERS,
+];
 
 impl Calculator {
     /// The calculator of a name.
@@ -190,7 +212,7 @@ impl Input {
         (least, most): (f64, f64),
         default: &'static str,
     ) -> Self {
-        let whole = matches!(measure, Measure::Count | Measure::Bits);
+        let whole = matches!(measure, Measure::Count | Measure::Bits | Measure::Address);
         let kind = Kind::Number {
             measure,
             unit,
@@ -253,9 +275,10 @@ impl Input {
                 whole,
             } => {
                 let number = quantity::parse(text, measure, unit).map_err(wrong)?;
-                let say = |bound: f64| match unit {
-                    "" => quantity::rounded(bound, 9),
-                    unit => format!("{} {unit}", quantity::rounded(bound, 9)),
+                let say = |bound: f64| match (measure, unit) {
+                    (Measure::Address, _) => format!("0x{:X}", bound as u64),
+                    (_, "") => quantity::rounded(bound, 9),
+                    (_, unit) => format!("{} {unit}", quantity::rounded(bound, 9)),
                 };
                 if number < least {
                     return Err(wrong(format!("{text} is less than {}", say(least))));
@@ -296,6 +319,14 @@ impl Given {
 }
 
 impl Outcome {
+    /// Answers alone.
+    fn of(answers: impl Into<Vec<Answer>>) -> Self {
+        Self {
+            answers: answers.into(),
+            code: None,
+        }
+    }
+
     /// The answer of a name.
     #[must_use]
     pub fn answer(&self, name: &str) -> Option<&Answer> {

@@ -132,6 +132,10 @@ errata! {
         "wires A and B" =>
         "TX+ and TX−, pins 5 and 6",
         "the table of pins";
+    24 "P+F, APCI-1710, cable of 200 m" [SsiTree]
+        "2900 ns of delay allow 300 kHz" =>
+        "about 220 kHz by the sum that follows it, 200 kHz by table 2, 172 kHz for a shift of 180°",
+        "2900 + 0.5 · 3300 ≈ 4500 ns; the period of 300 kHz is 3333 ns";
 }
 
 impl Format {

@@ -40,7 +40,7 @@ pub enum Role {
     Status,
     /// The alarm byte of T485.
     Alarm,
-    /// Encoder identity of T485.
+    /// What the encoder is (T485), or a module of a board.
     Enid,
     /// Revolutions per second × 10, 16-bit two's complement.
     Speed,

@@ -18,7 +18,8 @@
 //! - [`export`]: decoders as source, frames as tables;
 //! - [`product`]: what is sold; [`model`]: order codes; [`calculator`]: what is worked out on paper;
 //!   [`adapter`]: what USB adapters can do; [`wiring`]: which wire goes where; [`procedure`]: how
-//!   the zero of each product is set; [`lamp`]: what an encoder's LED says.
+//!   the zero of each product is set; [`lamp`]: what an encoder's LED says; [`apci1710`]: the
+//!   registers of a board that clocks SSI.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
 //! that was chosen.
@@ -33,6 +34,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod adapter;
+pub mod apci1710;
 pub mod bits;
 pub mod calculator;
 pub mod capture;

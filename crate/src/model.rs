@@ -1,19 +1,61 @@
-//! Order codes: from the label on the encoder to a profile (MPP and PT, "Order code").
+//! Order codes: from the label on the encoder to a profile.
 //!
 //! `MPP-20-30-A-24BM-R-N-A-M`: series – rotor – stator – output – resolution – interface –
-//! supply – temperature – option.
+//! supply – temperature – option (MPP and PT, order code). [`FORMS`] has the tables: reading,
+//! writing and all messages come from them.
+//!
+//! Besides whole codes there are the short forms of the manuals: `17BM-T`, `24M-D`, and `17M`
+//! alone for BiSS-C; `IP-75-ASI1`; `AVM58` and `AVM58-H`.
 
-use crate::{format::Format, profile::Profile};
-use alloc::{format, string::String, vec::Vec};
+mod conclusions;
+mod form;
+mod label;
+mod offer;
+
+pub use conclusions::Request;
+pub use form::{FORMS, Form, Part, Place, Says, Token, Word};
+
+use crate::{
+    product::{Interface, Series},
+    profile::Profile,
+};
+use alloc::{
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
 use core::fmt;
 
 /// What an order code says.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// The profile it implies.
     pub profile: Profile,
-    /// `MPP` or `PT`.
-    pub series: String,
+    /// The series; none for a short form, which MPP and PT share.
+    pub series: Option<Series>,
+    /// How it is wired and what it speaks.
+    pub interface: Interface,
+    /// How turns are kept.
+    pub turns: Turns,
+    /// The form of its code.
+    pub form: &'static Form,
+    /// The parts of its code, those that were left out too.
+    pub tokens: Vec<Token>,
+}
+
+/// How turns are kept (MPP and PT, "Models"; P+F article, "the variety of designs").
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turns {
+    /// Not at all.
+    Single,
+    /// They are counted while there is power, and are 0 after it was off.
+    Powered,
+    /// A battery keeps counting.
+    Battery,
+    /// In flash; without power the shaft may turn by 90° at most.
+    Flash,
+    /// By a mechanical gear, which needs no power.
+    Gear,
 }
 
 /// What is wrong with an order code.
@@ -37,117 +79,263 @@ impl fmt::Display for ModelError {
 
 impl core::error::Error for ModelError {}
 
-/// What each part of a code must be.
-const PARTS: [&str; 9] = [
-    "series, MPP or PT",
-    "rotor diameter in mm, such as 20 or 15B",
-    "stator diameter in mm, such as 30 or 25H",
-    "output, A",
-    "resolution, such as 24, 24M, 24BM or 24FM",
-    "interface, one of S B R A T D P",
-    "supply, N",
-    "temperature, A, B or C",
-    "option, M or a baud code A or B",
-];
+impl Turns {
+    /// Its name in records.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Single => "none",
+            Self::Powered => "powered",
+            Self::Battery => "battery",
+            Self::Flash => "flash",
+            Self::Gear => "gear",
+        }
+    }
+}
+
+/// One part of a code that is looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// The text, in capital Latin letters; empty where the part is missing.
+    pub text: String,
+    /// What stands at this position; none behind the last.
+    pub part: Option<&'static Part>,
+    /// What it means.
+    pub doc: String,
+    /// What is wrong, and what fits.
+    pub fault: Option<String>,
+}
 
 /// Parses an order code.
 ///
+/// Lower case, spaces, any dash and Cyrillic letters that look like Latin ones are understood.
+///
 /// # Errors
 ///
-/// Says which part is wrong and what fits there.
+/// Says which part is wrong and what fits there; of several the first.
 ///
 /// ```
 /// let model = encoderscope::model::parse("MPP-40-60-A-23BM-T-N-A-M").unwrap();
 /// assert_eq!((model.profile.angle_bits, model.profile.turns_bits), (23, 16));
 /// let wrong = encoderscope::model::parse("MPP-40-60-A-23BM-Z-N-A-M").unwrap_err();
-/// assert_eq!(wrong.position, 6);
+/// assert_eq!(
+///     wrong.to_string(),
+///     "part 6 of the order code: \"Z\" is no interface; S, B, R, A, T, D or P fit"
+/// );
 /// ```
 pub fn parse(code: &str) -> Result<Model, ModelError> {
-    let upper = code.trim().to_ascii_uppercase();
-    let parts: Vec<&str> = upper.split('-').collect();
-    let wrong = |position: usize| ModelError {
-        position,
-        message: format!(
-            "\"{}\" is not a {}",
-            parts.get(position - 1).copied().unwrap_or(""),
-            PARTS
-                .get(position - 1)
-                .copied()
-                .unwrap_or("part: the code has nine")
-        ),
-    };
-    let part = |position: usize| {
-        parts
-            .get(position - 1)
-            .copied()
-            .ok_or_else(|| wrong(position))
-    };
-    let one_of = |position: usize, known: &[&str]| {
-        part(position).and_then(|text| {
-            if known.contains(&text) {
-                Ok(())
-            } else {
-                Err(wrong(position))
+    let texts = label::parts(code);
+    let first = texts.first().map(String::as_str).unwrap_or_default();
+    let form = Form::of(first).ok_or_else(|| no_series(first))?;
+    form.compose(&texts)
+}
+
+/// What every part of a code means, and what is wrong with it, however much is wrong.
+///
+/// ```
+/// let looks = encoderscope::model::look("MPP-40-x-A-24-Z-N-A-M");
+/// let wrong: Vec<_> = looks.iter().filter(|look| look.fault.is_some()).collect();
+/// assert_eq!(wrong.len(), 2);
+/// assert_eq!(wrong[0].fault.as_deref(), Some("\"X\" is no stator diameter; 1 to 999 mm fit"));
+/// ```
+#[must_use]
+pub fn look(code: &str) -> Vec<Look> {
+    let texts = label::parts(code);
+    let first = texts.first().map(String::as_str).unwrap_or_default();
+    let form = Form::of(first);
+    let parts = form.map_or(&[][..], |form| form.parts);
+    let count = texts.len().max(parts.len());
+    let mut looks: Vec<Look> = (0..count)
+        .map(|index| {
+            let text = texts.get(index).map(String::as_str);
+            let part = parts.get(index).copied();
+            let read = read(part, text, parts.len());
+            Look {
+                text: text.unwrap_or_default().to_string(),
+                part,
+                doc: read.as_ref().map(Token::doc).unwrap_or_default(),
+                fault: match form {
+                    Some(_) => read.err(),
+                    None => (index == 0).then(|| no_series(first).message),
+                },
             }
         })
-    };
-    let series = part(1)?;
-    one_of(1, &["MPP", "PT"])?;
-    diameter(part(2)?, 'B').ok_or_else(|| wrong(2))?;
-    diameter(part(3)?, 'H').ok_or_else(|| wrong(3))?;
-    one_of(4, &["A"])?;
-    let (angle_bits, turns_bits) = resolution(part(5)?).ok_or_else(|| wrong(5))?;
-    let interface = part(6)?;
-    let format = match interface {
-        "S" => Format::Ssi,
-        "B" => Format::BissC,
-        "R" | "A" => Format::Rs485,
-        "T" => Format::T485,
-        "D" => Format::Bus,
-        "P" => Format::Period,
-        _ => return Err(wrong(6)),
-    };
-    if format == Format::T485 && !matches!(angle_bits, 17 | 23) {
-        return Err(ModelError {
-            position: 5,
-            message: format!("{angle_bits} bits do not exist with T485, which has 17 or 23"),
-        });
+        .collect();
+    // What no part says alone: that two do not go together.
+    if let Err(error) = parse(code)
+        && let Some(look) = looks.get_mut(error.position.saturating_sub(1))
+    {
+        look.fault.get_or_insert(error.message);
     }
-    one_of(7, &["N"])?;
-    one_of(8, &["A", "B", "C"])?;
-    one_of(9, &["M", "A", "B"])?;
-    if parts.len() > PARTS.len() {
-        return Err(wrong(PARTS.len() + 1));
-    }
-    let slow = format == Format::Rs485 && parts[8] == "A";
-    let profile = Profile {
-        angle_bits,
-        turns_bits,
-        baud: if slow { 115_200 } else { 2_500_000 },
-        ..format.default_profile()
+    looks
+}
+
+/// Only the smallest program has no room for the words.
+const IS_TERSE: bool = cfg!(feature = "small");
+
+fn no_series(first: &str) -> ModelError {
+    let message = match (IS_TERSE, first) {
+        (true, _) => "does not fit".to_string(),
+        (_, "") => "is missing".to_string(),
+        (_, first) => {
+            let series: Vec<_> = Form::series().collect();
+            format!("\"{first}\" is no series; {} fit", series.join(", "))
+        }
     };
-    Ok(Model {
-        profile,
-        series: series.into(),
+    ModelError {
+        position: 1,
+        message,
+    }
+}
+
+/// What a text says at a part, or what is wrong with it.
+fn read(part: Option<&'static Part>, text: Option<&str>, count: usize) -> Result<Token, String> {
+    let found = part.and_then(|part| part.read(text.or(part.missing)?));
+    found.ok_or_else(|| match (IS_TERSE, part, text) {
+        (true, ..) => "does not fit".to_string(),
+        (_, None, text) => format!(
+            "\"{}\" is one too many: the code has {count} parts",
+            text.unwrap_or_default()
+        ),
+        (_, Some(part), None) => format!("the {} is missing; {}", part.place.name(), part.fits()),
+        (_, Some(part), Some(text)) => {
+            format!("\"{text}\" is no {}; {}", part.place.name(), part.fits())
+        }
     })
 }
 
-fn diameter(text: &str, suffix: char) -> Option<u32> {
-    text.strip_suffix(suffix).unwrap_or(text).parse().ok()
+impl Form {
+    /// The model whose code has these parts.
+    ///
+    /// # Errors
+    ///
+    /// Says which part is wrong and what fits there.
+    ///
+    /// ```
+    /// use encoderscope::model::Form;
+    /// let pt = Form::named("PT").unwrap();
+    /// let model = pt.compose(&["PT", "15B", "25H", "A", "24BM", "R", "N", "A", "M"])?;
+    /// assert_eq!(model.code(), "PT-15B-25H-A-24BM-R-N-A-M");
+    /// # Ok::<(), encoderscope::model::ModelError>(())
+    /// ```
+    pub fn compose(&'static self, texts: &[impl AsRef<str>]) -> Result<Model, ModelError> {
+        let count = self.parts.len();
+        let mut tokens = Vec::new();
+        for index in 0..count.max(texts.len()) {
+            let text = texts.get(index).map(AsRef::as_ref);
+            match read(self.parts.get(index).copied(), text, count) {
+                Ok(token) => tokens.push(token),
+                Err(message) => {
+                    return Err(ModelError {
+                        position: index + 1,
+                        message,
+                    });
+                }
+            }
+        }
+        let model = Model::of(self, tokens);
+        match model.impossible() {
+            None => Ok(model),
+            Some((place, why)) => {
+                let at = self.parts.iter().position(|part| part.place == place);
+                Err(ModelError {
+                    position: at.unwrap_or_default() + 1,
+                    message: if IS_TERSE { "does not fit" } else { why }.to_string(),
+                })
+            }
+        }
+    }
 }
 
-/// `24BM` → 24 bits per turn and 16 bits of turns.
-fn resolution(text: &str) -> Option<(u32, u32)> {
-    let letters = text.trim_start_matches(|letter: char| letter.is_ascii_digit());
-    let digits = text.strip_suffix(letters)?;
-    let turns = match letters {
-        "" | "S" => 0,
-        "M" | "BM" | "FM" => 16,
-        _ => return None,
-    };
-    let angle = digits
-        .parse()
-        .ok()
-        .filter(|bits| (16..=24).contains(bits))?;
-    Some((angle, turns))
+impl Model {
+    fn of(form: &'static Form, tokens: Vec<Token>) -> Self {
+        let (mut series, mut interface) = (None, Interface::SsiTree);
+        let (mut widths, mut turns, mut baud) = (None, Turns::Single, None);
+        for token in &tokens {
+            match token.word.says {
+                Says::Series(named) => {
+                    series = Some(named);
+                    if matches!(named, Series::Avm58 | Series::Asm58) {
+                        turns = Turns::Gear;
+                    }
+                }
+                Says::Interface(named) => interface = named,
+                Says::Turns(kept, bits) => {
+                    turns = kept;
+                    widths = Some((token.number, bits));
+                }
+                Says::Baud(rate) => baud = Some(rate),
+                Says::Nothing | Says::Temperature(..) | Says::HardWired => {}
+            }
+        }
+        let mut profile = interface.format().default_profile();
+        profile.baud = baud.unwrap_or(profile.baud);
+        if let Some((angle_bits, turns_bits)) = widths {
+            (profile.angle_bits, profile.turns_bits) = (angle_bits, turns_bits);
+        }
+        if let Some(Series::Avs58 | Series::Ass58) = series {
+            profile.turns_bits = 0;
+            profile.frame_bits = profile.natural_frame_bits();
+        }
+        Self {
+            profile,
+            series,
+            interface,
+            turns,
+            form,
+            tokens,
+        }
+    }
+
+    /// The part that does not go with the others, and why (MPP and PT: T485 note 2, BUS version
+    /// table, baud codes).
+    fn impossible(&self) -> Option<(Place, &'static str)> {
+        let says_baud = |token: &Token| matches!(token.word.says, Says::Baud(_));
+        let Profile {
+            angle_bits,
+            turns_bits,
+            ..
+        } = self.profile;
+        match self.interface {
+            Interface::T485 if !matches!(angle_bits, 17 | 23) || !matches!(turns_bits, 16) => {
+                Some((
+                    Place::Resolution,
+                    "T485 comes with 17M, 17BM, 17FM, 23M, 23BM or 23FM only",
+                ))
+            }
+            Interface::Bus if matches!(self.turns, Turns::Battery | Turns::Flash) => Some((
+                Place::Resolution,
+                "BUS comes without a turn counter or with M; BM and FM do not exist",
+            )),
+            interface if turns_bits == 8 && interface != Interface::Bus => Some((
+                Place::Resolution,
+                "M1 exists with BUS only; nothing, M, BM or FM fits",
+            )),
+            Interface::Rs485 | Interface::Rs422 => None,
+            _ if self.tokens.iter().any(says_baud) => Some((
+                Place::Option,
+                "only RS485 and RS422, letters R and A, have a baud code; M fits",
+            )),
+            _ => None,
+        }
+    }
+
+    /// The code as it is ordered, in capital letters.
+    ///
+    /// ```
+    /// let model = encoderscope::model::parse("рт 20 30h a 24 s n a m").unwrap();
+    /// assert_eq!(model.code(), "PT-20-30H-A-24-S-N-A-M");
+    /// ```
+    #[must_use]
+    pub fn code(&self) -> String {
+        let texts = self.tokens.iter().map(Token::text);
+        let texts: Vec<_> = texts.filter(|text| !text.is_empty()).collect();
+        texts.join("-")
+    }
+
+    /// The part of its code at a place.
+    #[must_use]
+    pub fn token(&self, place: Place) -> Option<&Token> {
+        self.tokens.iter().find(|token| token.part.place == place)
+    }
 }

@@ -1,5 +1,8 @@
 //! What is sold: the series of encoders, and the interfaces that each comes with.
 
+pub mod facts;
+pub mod sizes;
+
 use crate::format::Format;
 
 /// A series of encoders.

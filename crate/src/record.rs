@@ -6,7 +6,6 @@ use crate::{
     decode::{Frame, Summary},
     explain::{Note, degrees_text},
     layout::Class,
-    model::Model,
     profile::{Profile, camel},
     reading::Checked,
 };
@@ -313,13 +312,5 @@ impl Profile {
     pub fn record(&self) -> Record {
         let named = self.parameters().into_iter();
         Record(named.map(|(name, value)| (camel(name), value)).collect())
-    }
-}
-
-impl Model {
-    /// The record of an order code: its profile's, and the series.
-    #[must_use]
-    pub fn record(&self) -> Record {
-        self.profile.record().with("series", self.series.as_str())
     }
 }

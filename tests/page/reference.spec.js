@@ -1,7 +1,7 @@
 // The reference: every format out of the same tables that the JavaScript module decodes with.
 import { at, expect, test } from './page.js';
 
-const ERRATA = 23;
+const ERRATA = 24;
 const kebab = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 const query = (profile) =>
   Object.entries(profile)

@@ -159,5 +159,30 @@ export function explain(profile: Profile, hexOrBits: string): Note[];
 /** The frame that says `values`: hexadecimal digits, or 0 and 1 where it is not whole bytes. */
 export function encode(profile: Profile, values: Values): string;
 
-/** The profile of an order code; throws with the part that is wrong. */
-export function parseModel(code: string): Profile & { series: string };
+/** What an order code says: its profile, and what else follows. */
+export interface Model extends Profile {
+  /** The series; `MPP or PT` of a short form such as `17M-T`. */
+  series: string;
+  /** The code as it is ordered, in capital letters. */
+  orderCode: string;
+  /** The interface; `rs485` and `rs422` share the format `rs485`, but not the wires. */
+  interface: string;
+  turnsKept: 'none' | 'powered' | 'battery' | 'flash' | 'gear';
+  /** Whether it has wires for a battery. */
+  battery: boolean;
+  /** Whether zero or address can be changed by command. */
+  changesByCommand: boolean;
+  supply: string | null;
+  current: string | null;
+  /** Working temperature, °C. */
+  leastTemperature: number | null;
+  greatestTemperature: number | null;
+  /** Diameters, mm. */
+  rotor: number | null;
+  stator: number | null;
+  /** Bits of the frame that is read most, where it always has as many; of BiSS-C without its preamble. */
+  frameBits?: number;
+}
+
+/** What an order code says; throws with the part that is wrong. */
+export function parseModel(code: string): Model;

@@ -80,7 +80,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
         Answer::said("permission", "What must be allowed", system.title())
             .note(system.permission()),
     ]);
-    Ok(Outcome { answers })
+    Ok(Outcome::of(answers))
 }
 
 fn made(chip: &Chip, asked: u32) -> Answer {

@@ -23,13 +23,15 @@ pub enum Measure {
     Length,
     /// Angles.
     Angle,
+    /// Addresses: whole numbers, in hexadecimal digits behind `0x`.
+    Address,
 }
 
 impl Measure {
     /// Its units, with how many of the first each is.
     const fn units(self) -> &'static [(&'static str, f64)] {
         match self {
-            Self::Count | Self::Fraction => &[],
+            Self::Count | Self::Fraction | Self::Address => &[],
             Self::Bits => &[("bits", 1.0), ("bit", 1.0)],
             Self::Frequency => &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
             Self::Rate => &[
@@ -86,7 +88,8 @@ impl Measure {
 
 /// The number in a text, in `unit`; a unit behind it may be another of the same measure.
 ///
-/// Spaces of any width may group the digits, and the decimal sign is a point or a comma.
+/// Spaces of any width may group the digits, and the decimal sign is a point or a comma. An address
+/// may be hexadecimal.
 ///
 /// # Errors
 ///
@@ -96,10 +99,16 @@ impl Measure {
 /// use encoderscope::calculator::quantity::{Measure, parse};
 /// assert_eq!(parse("2,5 MHz", Measure::Frequency, "kHz"), Ok(2500.0));
 /// assert_eq!(parse("1 000 000", Measure::Count, ""), Ok(1e6));
+/// assert_eq!(parse("0xD0_80", Measure::Address, ""), Ok(53376.0));
 /// assert!(parse("200 apples", Measure::Length, "m").is_err());
 /// ```
 pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
     let text = text.trim();
+    if measure == Measure::Address && text.contains(|letter: char| letter.is_ascii_alphabetic()) {
+        return address(text).ok_or_else(|| {
+            format!("\"{text}\" is not an address: hexadecimal digits stand behind 0x")
+        });
+    }
     let is_part = |letter: char| letter.is_ascii_digit() || ".,-−+".contains(letter);
     let after = |from: usize, is_part: &dyn Fn(char) -> bool| {
         let rest = text.get(from..).unwrap_or("");
@@ -143,6 +152,19 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
                 }
             }),
     }
+}
+
+/// The number of hexadecimal digits behind `0x`.
+fn address(text: &str) -> Option<f64> {
+    let digits = text
+        .strip_prefix("0x")
+        .or_else(|| text.strip_prefix("0X"))?;
+    let digits = digits.chars().filter(|letter| *letter != '_');
+    let mut address = None;
+    for letter in digits {
+        address = Some(address.unwrap_or(0.0) * 16.0 + f64::from(letter.to_digit(16)?));
+    }
+    address
 }
 
 /// A number with so many significant digits, its thousands apart and without trailing zeros.

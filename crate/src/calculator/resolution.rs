@@ -125,34 +125,31 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
             .tone(Tone::Good)
             .note("the resolution is the limit, not the accuracy"),
     };
-    Ok(Outcome {
-        answers: [
-            width,
-            Answer::of("counts", "Counts per turn", counts, 15, ""),
-            Answer::of("degrees", "Degrees per count", step, 6, "°"),
-            Answer::of(
-                "arc-seconds",
-                "Seconds of arc per count",
-                SECONDS / counts,
-                6,
-                "″",
-            ),
-            Answer::of(
-                "length",
-                "Way per count at the radius",
-                around / counts,
-                4,
-                "µm",
-            ),
-            Answer::of(
-                "accuracy-length",
-                "Accuracy at the radius, ±",
-                accuracy / 360.0 * around,
-                4,
-                "µm",
-            ),
-            trust,
-        ]
-        .into(),
-    })
+    Ok(Outcome::of([
+        width,
+        Answer::of("counts", "Counts per turn", counts, 15, ""),
+        Answer::of("degrees", "Degrees per count", step, 6, "°"),
+        Answer::of(
+            "arc-seconds",
+            "Seconds of arc per count",
+            SECONDS / counts,
+            6,
+            "″",
+        ),
+        Answer::of(
+            "length",
+            "Way per count at the radius",
+            around / counts,
+            4,
+            "µm",
+        ),
+        Answer::of(
+            "accuracy-length",
+            "Accuracy at the radius, ±",
+            accuracy / 360.0 * around,
+            4,
+            "µm",
+        ),
+        trust,
+    ]))
 }

@@ -77,6 +77,8 @@ pub const TIMING: Timing = Timing {
     pause: 20 * MICROSECOND,
     pause_text: "t_P = 20 µs",
     words: Words::Once,
+    // MPP and PT, characteristics: update frequency.
+    positions: Some(50_000),
 };
 
 /// Clocks at whose falling edges the line is still idle: the encoder pulls it low at the second

@@ -65,6 +65,8 @@ pub const TIMING: Timing = Timing {
     pause: 20 * MICROSECOND,
     pause_text: "t_P = 20 µs",
     words: Words::Once,
+    // MPP and PT, characteristics: update frequency.
+    positions: Some(50_000),
 };
 
 layout! {

@@ -81,6 +81,8 @@ pub const TIMING: Timing = Timing {
     pause: 30 * MICROSECOND,
     pause_text: "t_m = 20 ± 10 µs, which the pause must exceed",
     words: Words::Ring,
+    // The article names none.
+    positions: None,
 };
 
 /// Columns to the left of the axis.

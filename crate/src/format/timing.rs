@@ -58,6 +58,8 @@ pub struct Timing {
     pub pause_text: &'static str,
     /// What more clocks than a word has bring.
     pub words: Words,
+    /// How many new positions the encoder takes in a second, where its manual says so.
+    pub positions: Option<u32>,
 }
 
 impl Timing {

@@ -5,6 +5,9 @@
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
 mod adapters;
+mod apci;
+mod calculators;
+mod calculators_laws;
 mod captures;
 mod captures_files;
 mod captures_pieces;
@@ -33,9 +36,11 @@ mod laws_formats;
 mod laws_profiles;
 mod laws_ssi;
 mod layouts;
+mod order_codes;
 mod own;
 mod pastes;
 mod procedures;
+mod products;
 mod reference;
 mod resolution;
 mod rivals;

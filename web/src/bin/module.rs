@@ -195,7 +195,7 @@ pub fn encode(profile: &JsValue, values: &JsValue) -> Result<String, JsError> {
     })
 }
 
-/// The profile of an order code.
+/// What an order code says.
 #[wasm_bindgen(js_name = parseModel)]
 pub fn parse_model(code: &str) -> Result<JsValue, JsError> {
     to_js(model::parse(code)?.record())

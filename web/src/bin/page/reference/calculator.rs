@@ -1,8 +1,11 @@
 //! A calculator: what it needs, and what follows. All of it is out of the core's tables.
 
 use super::{Scroll, book::Book};
-use crate::{app::App, handout::copy};
-use encoderscope::calculator::{Answer, Calculator, Fault, Input, Kind, Outcome, Tone};
+use crate::{
+    app::App,
+    handout::{copy, save_text},
+};
+use encoderscope::calculator::{Answer, Calculator, Code, Fault, Input, Kind, Outcome, Tone};
 use leptos::prelude::*;
 
 #[component]
@@ -121,6 +124,7 @@ fn Field(input: &'static Input, outcome: Memo<Result<Outcome, Fault>>) -> impl I
 #[component]
 fn Answers(outcome: Outcome) -> impl IntoView {
     let rows = outcome.answers.into_iter().map(answer);
+    let code = outcome.code.map(|code| view! { <Program code=code /> });
     view! {
         <Scroll label="Answers".to_owned()>
             <table class="answers">
@@ -135,6 +139,34 @@ fn Answers(outcome: Outcome) -> impl IntoView {
                 <tbody>{rows.collect_view()}</tbody>
             </table>
         </Scroll>
+        {code}
+    }
+}
+
+/// A program with the answers filled in.
+#[component]
+fn Program(code: Code) -> impl IntoView {
+    let said = RwSignal::new(None::<String>);
+    let (copied, saved) = (code.text.clone(), code.text.clone());
+    view! {
+        <div class="program">
+            <h2>{code.title}</h2>
+            <Scroll label=code.title.to_owned()>
+                <pre data-testid="calculator-code">{code.text}</pre>
+            </Scroll>
+            <p class="doors">
+                <button
+                    data-testid="copy-code"
+                    on:click=move |_| copy(copied.clone(), said, "Program copied.")
+                >
+                    "Copy the program"
+                </button>
+                <button data-testid="save-code" on:click=move |_| save_text(&saved, code.file)>
+                    {format!("Save as {}", code.file)}
+                </button>
+                <span role="status" class="hint">{move || said.get()}</span>
+            </p>
+        </div>
     }
 }
 
@@ -145,6 +177,7 @@ fn answer(answer: Answer) -> impl IntoView {
         Tone::Warn => ("warn", "! "),
         Tone::Bad => ("bad", "✗ "),
     };
+    let is_said = answer.number.is_none();
     view! {
         <tr
             data-testid="calculator-answer"
@@ -152,7 +185,7 @@ fn answer(answer: Answer) -> impl IntoView {
             data-value=answer.number.map(|number| number.to_string())
         >
             <th scope="row">{answer.title}</th>
-            <td class=format!("answer {tone}")>{sign} {answer.text}</td>
+            <td class=format!("answer {tone}") class:words=is_said>{sign} {answer.text}</td>
             <td class="words doc">{answer.note}</td>
         </tr>
     }

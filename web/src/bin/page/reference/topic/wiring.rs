@@ -107,12 +107,14 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
         setup.adapter.key()
     );
     let profile = setup.interface.format().default_profile();
-    let supply = wiring.supply;
-    let (low, high) = supply.volts;
-    let current = match supply.milliamps {
-        Some(milliamps) => format!(", {milliamps} mA"),
-        None => String::new(),
-    };
+    let supply = wiring.supply.iter();
+    let supply: Vec<_> = supply
+        .map(|fact| format!("{} {}", fact.name, fact.value))
+        .collect();
+    let characteristics = filled_link(
+        Leaf::Topic(Topic::Products),
+        &[("series", setup.series.key())],
+    );
     let order_code = filled_link(Leaf::Topic(Topic::OrderCode), &[]);
     let zero = filled_link(
         Leaf::Topic(Topic::Zero),
@@ -142,7 +144,8 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
                 </Scroll>
             </div>
             <p data-testid="wiring-supply">
-                "Supply: " <b>{format!("{low}…{high} V{current}")}</b> ", " {supply.note} " (" {supply.source} ")."
+                <a href=characteristics>"Characteristics"</a>
+                ": " {supply.join(", ")} "."
             </p>
             <p class="doors">
                 <button

@@ -1,0 +1,440 @@
+//! How fast an encoder can be clocked over a cable, and how often it is read then.
+
+use super::{
+    Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word,
+    quantity::{Measure, rounded},
+};
+use crate::{
+    decode::Decoder,
+    explain::grouped,
+    format::{
+        Format, biss_c,
+        timing::{Beyond, MICROSECOND, Timing},
+    },
+    layout::{Resolved, Shape},
+    profile::Profile,
+};
+use alloc::{format, string::String};
+
+const SSI_TREE: Word = Word {
+    name: "ssi-tree",
+    title: "SSI of Pepperl+Fuchs",
+};
+const SSI: Word = Word {
+    name: "ssi",
+    title: "SSI of MPP and PT",
+};
+const SSI7: Word = Word {
+    name: "ssi7",
+    title: "SSI7 of IP-75",
+};
+const BISS_C: Word = Word {
+    name: "biss-c",
+    title: "BiSS-C of MPP and PT",
+};
+
+/// Lengths in metres, and the highest clock in kilohertz up to each (P+F article, table 2).
+const TABLE: [(f64, f64); 4] = [
+    (50.0, 400.0),
+    (100.0, 300.0),
+    (200.0, 200.0),
+    (400.0, 100.0),
+];
+
+/// Up to here the data come a quarter of a period late: what table 2 promises.
+const SAFE: f64 = 90.0;
+/// From here on the receiver takes the wrong bits (P+F article, long lines).
+const WRONG: f64 = 180.0;
+
+pub(super) const SSI_LINE: Calculator = Calculator {
+    name: "ssi-line",
+    title: "SSI line",
+    about: "How late the data come over a cable, which clock that allows, and how often the encoder is read with it.",
+    source: "P+F article, table 2, figure 2 and APCI-1710; IP-75, 5.4.1; MPP and PT, SSI and BiSS-C timing",
+    inputs: &[
+        Input::number(
+            "length",
+            "Cable",
+            "from the controller to the encoder",
+            (Measure::Length, "m"),
+            (0.0, 10_000.0),
+            "200",
+        ),
+        Input::number(
+            "wire-delay",
+            "Delay of the cable",
+            "of each metre; 6.5 ns/m in the article, and no cable is faster than light",
+            (Measure::Delay, "ns/m"),
+            (3.336, 100.0),
+            "6.5",
+        ),
+        Input::number(
+            "encoder-delay",
+            "Delay of the encoder",
+            "of its electronics, T_e; at most 150 ns in the article",
+            (Measure::Time, "ns"),
+            (0.0, 1e5),
+            "150",
+        ),
+        Input::number(
+            "receiver-delay",
+            "Delay of the receiver",
+            "T_r; at most 150 ns in the article",
+            (Measure::Time, "ns"),
+            (0.0, 1e5),
+            "150",
+        ),
+        Input::number(
+            "clock",
+            "Clock wished",
+            "of the controller",
+            (Measure::Frequency, "kHz"),
+            (0.001, 100_000.0),
+            "125",
+        ),
+        Input::word(
+            "format",
+            "Format",
+            "decides which clocks and pauses are allowed",
+            &[SSI_TREE, SSI, SSI7, BISS_C],
+            "ssi-tree",
+        ),
+        Input::number(
+            "bits",
+            "Bits of the word",
+            "25 or 13 of P+F, X + 24 or X + 8 of MPP and PT SSI, 30 of SSI7; of BiSS-C from the acknowledge to the CRC, X + 37 or X + 21",
+            (Measure::Bits, "bits"),
+            (1.0, 256.0),
+            "25",
+        ),
+    ],
+    work,
+};
+
+/// What has been entered, in nanoseconds and kilohertz.
+struct Line {
+    format: Format,
+    timing: &'static Timing,
+    length: f64,
+    delay: f64,
+    clock: f64,
+}
+
+impl Line {
+    /// How late the data come at a clock, in degrees of its period.
+    fn phase(&self, clock: f64) -> f64 {
+        self.delay * clock * 360.0 / 1e6
+    }
+
+    /// Period of the clock, in microseconds.
+    fn period(&self) -> f64 {
+        1e3 / self.clock
+    }
+}
+
+fn work(given: &Given) -> Result<Outcome, Fault> {
+    let chosen = Format::parse(given.word("format"));
+    let Some((format, timing)) = chosen.and_then(|format| Some((format, format.timing()?))) else {
+        return Err(Fault {
+            input: "format",
+            message: "no master clocks this format out".into(),
+        });
+    };
+    let bits = given.number("bits");
+    let (least, most) = word_limits(format);
+    if bits < least || bits > most {
+        return Err(Fault {
+            input: "bits",
+            message: format!(
+                "{bits} bits: a word of {} has {least}…{most}",
+                format.title()
+            ),
+        });
+    }
+    let length = given.number("length");
+    let wire = given.number("wire-delay") * length;
+    let (encoder, receiver) = (
+        given.number("encoder-delay"),
+        given.number("receiver-delay"),
+    );
+    let line = Line {
+        format,
+        timing,
+        length,
+        delay: encoder + 2.0 * wire + receiver,
+        clock: given.number("clock"),
+    };
+    let sum = format!(
+        "T_e + 2 · T_c + T_r = {} + 2 · {} + {} ns: clock out, data back",
+        rounded(encoder, 6),
+        rounded(wire, 6),
+        rounded(receiver, 6)
+    );
+    let delay = Answer::of("delay", "Delay of the line", line.delay, 6, "ns").note(sum);
+    let answers = [delay]
+        .into_iter()
+        .chain(shift(&line))
+        .chain(table(&line))
+        .chain(window(&line))
+        .chain(cycle(&line, bits));
+    Ok(Outcome::of(answers.collect::<alloc::vec::Vec<_>>()))
+}
+
+/// The shortest and the longest word of a format, in bits.
+fn word_limits(format: Format) -> (f64, f64) {
+    let limits = format.limits();
+    let base = format.default_profile();
+    if limits.frame.1 > 0 {
+        return (limits.frame.0.into(), limits.frame.1.into());
+    }
+    let len = |profile: Profile| {
+        let whole = Decoder::new(profile).ok();
+        whole.map_or(0, |decoder| {
+            let shape = Shape {
+                idle: 0,
+                ..Shape::of(profile)
+            };
+            Resolved::new(decoder.main_layout().layout, shape).len
+        })
+    };
+    let ends = |name| base.range(name).unwrap_or((0, 0));
+    let (status, ack) = (ends("status-bits"), ends("ack-bits"));
+    let least = Profile {
+        angle_bits: 1,
+        turns_bits: 0,
+        status_bits: status.0,
+        ack_bits: ack.0,
+        ..base
+    };
+    let most = Profile {
+        angle_bits: limits.angle.min(limits.together),
+        turns_bits: limits.together.saturating_sub(limits.angle),
+        status_bits: status.1,
+        ack_bits: ack.1,
+        ..base
+    };
+    (len(least) as f64, len(most) as f64)
+}
+
+/// What the delay makes of the clock.
+fn shift(line: &Line) -> [Answer; 4] {
+    let phase = line.phase(line.clock);
+    let (tone, said, why) = match phase {
+        phase if phase < SAFE => (Tone::Good, "safe", "less than a quarter of a period"),
+        phase if phase < WRONG => (
+            Tone::Warn,
+            "works, with no margin",
+            "more than a quarter of a period, less than half of one",
+        ),
+        _ => (
+            Tone::Bad,
+            "wrong bits",
+            "each bit comes when the next one is read",
+        ),
+    };
+    let highest = |name, title: &str, degrees: f64| match line.delay {
+        delay if delay > 0.0 => Answer::of(name, title, degrees / 360.0 * 1e6 / delay, 4, "kHz"),
+        _ => Answer::said(name, title, "any: there is no delay"),
+    };
+    [
+        Answer::of("phase", "Phase shift of the clock wished", phase, 4, "°")
+            .note("the delay in periods of the clock, times 360°")
+            .tone(tone),
+        Answer::said("verdict", "So the clock wished is", said)
+            .note(why)
+            .tone(tone),
+        highest("clock-safe", "Highest clock for 90°", SAFE).note("one period is four delays"),
+        highest("clock-edge", "Highest clock for 180°", WRONG)
+            .note("one period is two delays: nothing may become slower"),
+    ]
+}
+
+/// What the P+F article says of the same length, and where it is at odds with itself.
+fn table(line: &Line) -> [Answer; 4] {
+    let row = TABLE.iter().find(|(length, _)| line.length <= *length);
+    let half = 1e6 / line.clock / 2.0;
+    let sum = line.delay + half;
+    let second = Answer::of("second-sum", "Delay and half a period", sum, 4, "ns").note(format!(
+        "the article's second sum, {} + {}: the data leave the encoder half a period behind the edge that latched",
+        rounded(line.delay, 6),
+        rounded(half, 4)
+    ));
+    let rate = Answer::of("second-sum-clock", "The clock of that sum", 1e6 / sum, 4, "kHz").note(
+        "the article clocks 200 m with 300 kHz, though this sum gives about 220 kHz there and its table 200 kHz: erratum 24",
+    );
+    let (clock, phase) = match row {
+        None => (
+            Answer::said("table-clock", "Highest clock of table 2", "none")
+                .note("table 2 of the P+F article ends at 400 m; the formula above goes on"),
+            Answer::said("table-phase", "Phase shift of that clock", "none"),
+        ),
+        Some(&(length, clock)) => {
+            let shift = line.phase(clock);
+            let edge = match line.length == length {
+                true => "; the row says “less than”, and the article itself takes it for its 200 m",
+                false => "",
+            };
+            let (tone, note) = match shift {
+                shift if shift < SAFE => (Tone::Good, "less than 90°, as the table promises"),
+                shift if shift < WRONG => (
+                    Tone::Warn,
+                    "the table promises less than 90°; its own formula, with all delays, says this",
+                ),
+                _ => (
+                    Tone::Bad,
+                    "the table promises less than 90°; by its own formula, with all delays, the bits would be wrong",
+                ),
+            };
+            (
+                Answer::of("table-clock", "Highest clock of table 2", clock, 4, "kHz")
+                    .note(format!("P+F article, the row to {length} m{edge}")),
+                Answer::of("table-phase", "Phase shift of that clock", shift, 4, "°")
+                    .note(note)
+                    .tone(tone),
+            )
+        }
+    };
+    [clock, phase, second, rate]
+}
+
+/// Which clocks the format allows, and whether the one wished is among them.
+fn window(line: &Line) -> [Answer; 3] {
+    let Line { timing, clock, .. } = line;
+    let (timeout, shortest) = (micros(timing.timeout), micros(timing.silence()));
+    let beyond = match timing.beyond {
+        Beyond::Never => String::new(),
+        Beyond::FirstLow { fastest, low } => format!(
+            "to {} when the first low lasts {} ns or more",
+            hertz(f64::from(fastest)),
+            rounded(micros(low) * 1e3, 6)
+        ),
+        Beyond::Compensated { fastest } => format!(
+            "to {} when the master compensates the delay of the line",
+            hertz(f64::from(fastest))
+        ),
+    };
+    let period = line.period();
+    let asked = clock * 1e3;
+    let too_long = format!("the period of {} µs is not below", rounded(period, 4));
+    let (tone, fits, why) = match asked {
+        asked if asked > f64::from(timing.limit()) => (
+            Tone::Bad,
+            "no",
+            format!("at most {}", hertz(f64::from(timing.limit()))),
+        ),
+        asked if asked > f64::from(timing.fastest) => (Tone::Warn, "conditionally", beyond.clone()),
+        _ if period >= timeout => (
+            Tone::Bad,
+            "no",
+            format!(
+                "{too_long} the time-out of {} µs, and the encoder gives up",
+                rounded(timeout, 4)
+            ),
+        ),
+        asked if asked < f64::from(timing.slowest) => (
+            Tone::Warn,
+            "not by the manual",
+            format!(
+                "below its {}, though the period is below the time-out",
+                hertz(f64::from(timing.slowest))
+            ),
+        ),
+        _ if period >= shortest => (
+            Tone::Warn,
+            "for most encoders",
+            format!(
+                "{too_long} the shortest time-out, {} µs",
+                rounded(shortest, 4)
+            ),
+        ),
+        _ => (Tone::Good, "yes", String::new()),
+    };
+    let lowest = Answer::of(
+        "timeout-clock",
+        "Lowest clock by the time-out",
+        1e3 / timeout,
+        4,
+        "kHz",
+    );
+    let lowest = lowest.note(match shortest < timeout {
+        true => format!(
+            "{}: the period must be shorter; for the shortest, above {} kHz",
+            timing.timeout_text,
+            rounded(1e3 / shortest, 4)
+        ),
+        false => format!("{}: the period must be shorter", timing.timeout_text),
+    });
+    [
+        Answer::said(
+            "window",
+            "Clocks that the format allows",
+            format!(
+                "{}…{}",
+                hertz(f64::from(timing.slowest)),
+                hertz(f64::from(timing.fastest))
+            ),
+        )
+        .note(match beyond.is_empty() {
+            true => timing.source.into(),
+            false => format!("{}; {beyond}", timing.source),
+        }),
+        lowest,
+        Answer::said("clock-fits", "Is the clock wished allowed", fits)
+            .note(why)
+            .tone(tone),
+    ]
+}
+
+/// How long a reading takes, and how often there can be one.
+fn cycle(line: &Line, bits: f64) -> [Answer; 5] {
+    let timing = line.timing;
+    // The encoder answers from the first rising edge on, of BiSS-C from the second.
+    let (idle, why) = match line.format {
+        Format::BissC => (biss_c::IDLE_CLOCKS, "two more than bits"),
+        _ => (1, "one more than bits: the first latches the position"),
+    };
+    let clocks = bits + f64::from(idle);
+    let reading = (clocks - 0.5) * line.period();
+    let pause = micros(timing.pause);
+    let rate = 1e6 / (reading + pause);
+    let update = Answer::of("rate", "Readings a second", rate, 4, "")
+        .note("1 / (reading + pause), as fast as it goes");
+    let positions = "New positions a second";
+    let fresh = match timing.positions {
+        None => Answer::said("positions", positions, "every reading")
+            .note("the article names no limit of the encoder"),
+        Some(own) if rate > f64::from(own) => Answer::of("positions", positions, own.into(), 4, "")
+            .note(format!(
+                "the encoder is the limit: it takes {} a second, and some are read twice",
+                grouped(own.into())
+            ))
+            .tone(Tone::Warn),
+        Some(own) => Answer::of("positions", positions, rate, 4, "").note(format!(
+            "the line is the limit: the encoder takes {} a second",
+            grouped(own.into())
+        )),
+    };
+    [
+        Answer::of("clocks", "Falling edges", clocks, 4, "").note(why),
+        Answer::of("read-time", "A reading", reading, 4, "µs").note(match line.format {
+            Format::BissC => "from the first falling edge on, half a period behind the last one",
+            _ => "T_rc = n · T + 0.5 · T (IP-75, 5.4.1)",
+        }),
+        Answer::of("pause", "Pause behind it, at least", pause, 4, "µs").note(timing.pause_text),
+        update,
+        fresh,
+    ]
+}
+
+/// Picoseconds in microseconds.
+fn micros(picoseconds: i64) -> f64 {
+    picoseconds as f64 / MICROSECOND as f64
+}
+
+/// A frequency with the unit that suits it.
+fn hertz(frequency: f64) -> String {
+    match frequency {
+        frequency if frequency >= 1e6 => format!("{} MHz", rounded(frequency / 1e6, 4)),
+        frequency => format!("{} kHz", rounded(frequency / 1e3, 4)),
+    }
+}
