@@ -16,10 +16,10 @@
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`crc_search`]: the checksum of frames of an unknown format;
 //! - [`export`]: decoders as source, frames as tables;
-//! - [`product`]: what is sold; [`model`]: order codes; [`calculator`]: what is worked out on paper;
-//!   [`adapter`]: what USB adapters can do; [`wiring`]: which wire goes where; [`procedure`]: how
-//!   the zero of each product is set; [`lamp`]: what an encoder's LED says; [`apci1710`]: the
-//!   registers of a board that clocks SSI.
+//! - [`product`]: what is sold; [`model`]: order codes; [`wiring`]: which wire goes where;
+//!   [`procedure`]: how the zero of each product is set; [`lamp`]: what an encoder's LED says;
+//! - [`calculator`]: what is worked out on paper; [`adapter`]: what USB adapters can do;
+//!   [`apci1710`]: the registers of a board that clocks SSI encoders.
 //!
 //! The manuals contradict themselves in places; [`errata::ERRATA`] lists each with the reading
 //! that was chosen.

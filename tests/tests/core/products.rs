@@ -69,7 +69,7 @@ fn every_characteristic_is_said_once_and_has_its_source() {
         );
         let manuals = ["MPP", "PT", "IP-75", "P+F article"];
         let from = |manual: &&str| fact.source.starts_with(*manual) && fact.source.contains(", ");
-        assert!(manuals.iter().any(|manual| from(&manual)), "{fact:?}");
+        assert!(manuals.iter().any(from), "{fact:?}");
     }
     assert_eq!(Series::Mpp.fact(CURRENT).unwrap().value, "≈ 60 mA");
     assert_eq!(Series::Pt.fact(CURRENT).unwrap().value, "≈ 100 mA");
