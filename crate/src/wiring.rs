@@ -138,11 +138,11 @@ impl Adapter {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
-            Self::TwoWire => "USB–RS485 adapter, two wires, switchable terminator",
-            Self::TwoWireBare => "USB–RS485 adapter, two wires, no terminator",
-            Self::FourWire => "USB–RS422 adapter, four wires",
-            Self::Master => "SSI or BiSS master of a controller",
-            Self::Apci1710 => "APCI-1710 or CPCI-1710 board",
+            Self::TwoWire => "USB–RS485, terminator switch",
+            Self::TwoWireBare => "USB–RS485, no terminator",
+            Self::FourWire => "USB–RS422, four wires",
+            Self::Master => "SSI or BiSS master",
+            Self::Apci1710 => "APCI-1710 or CPCI-1710",
         }
     }
 

@@ -237,17 +237,17 @@ fn terminator_row(terminator: Terminator) -> impl IntoView {
         End::Encoder => "the encoder",
         End::Controller => "the controller",
     };
-    let (name, tone) = match terminator.presence {
-        Presence::Inside => ("inside", "good"),
-        Presence::Switched => ("switched", "warn"),
-        Presence::Added => ("added", "warn"),
-        Presence::Unclear => ("unclear", "warn"),
+    let (name, word, tone) = match terminator.presence {
+        Presence::Inside => ("inside", "yes: ", "good"),
+        Presence::Switched => ("switched", "to switch on: ", "warn"),
+        Presence::Added => ("added", "no: ", "warn"),
+        Presence::Unclear => ("unclear", "the manuals differ: ", "warn"),
     };
     view! {
         <tr data-testid="wiring-terminator" data-value=name>
             <th scope="row">{format!("{plus} and {minus}")}</th>
             <td class="words">{end}</td>
-            <td class=format!("words {tone}")>{terminator.text}</td>
+            <td class="words"><b class=format!("presence {tone}")>{word}</b> {terminator.text}</td>
             <td class="words doc">{terminator.source}</td>
         </tr>
     }
