@@ -33,6 +33,7 @@ test('a link gives picture, wires and warnings, and choices make such a link', a
   const url = page.url();
   await page.goto('about:blank');
   await page.goto(url);
+  await expect(at(page, 'wiring-row')).toHaveCount(8);
   expect((await wires(page))[4]).toBe('5 blue IN CLK+ adapter Ax+ CLOCK');
 });
 
