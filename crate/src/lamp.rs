@@ -61,7 +61,7 @@ impl Light {
             Self::Green => "green",
             Self::Yellow => "yellow: the position is valid, something is near its limit",
             Self::Red => "red: the position is not valid",
-            Self::Dark => "dark: the encoder has no supply, says nothing, and no data come",
+            Self::Dark => "dark: most likely the encoder has no supply",
         }
     }
 }
@@ -392,8 +392,8 @@ impl Lamp {
                 "do not use the turns; see to the battery, then set the zero of the turns anew"
             }
             (Light::Dark, _) => {
-                "check the supply at the encoder's own pins, 4.5…5.5 V, and its polarity; the \
-                 manuals do not speak of a dark lamp"
+                "check the supply and its polarity at the encoder's own pins; the manuals do not \
+                 speak of a dark lamp"
             }
         }
     }

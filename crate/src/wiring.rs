@@ -32,7 +32,10 @@ pub use terminators::{End, OHMS, Presence, Terminator};
 
 use crate::{
     calculator::Fault,
-    product::{Interface, Series},
+    product::{
+        Interface, Series,
+        facts::{CURRENT, Fact, SUPPLY},
+    },
 };
 use alloc::{string::String, vec::Vec};
 
@@ -135,11 +138,11 @@ impl Adapter {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
-            Self::TwoWire => "USB–RS485 adapter, two wires, switchable terminator",
-            Self::TwoWireBare => "USB–RS485 adapter, two wires, no terminator",
-            Self::FourWire => "USB–RS422 adapter, four wires",
-            Self::Master => "SSI or BiSS master of a controller",
-            Self::Apci1710 => "APCI-1710 or CPCI-1710 board",
+            Self::TwoWire => "USB–RS485, terminator switch",
+            Self::TwoWireBare => "USB–RS485, no terminator",
+            Self::FourWire => "USB–RS422, four wires",
+            Self::Master => "SSI or BiSS master",
+            Self::Apci1710 => "APCI-1710 or CPCI-1710",
         }
     }
 
@@ -244,22 +247,6 @@ pub struct Wire {
     pub note: &'static str,
 }
 
-/// What the encoder is supplied with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Supply {
-    /// Lowest and highest voltage at the encoder.
-    pub volts: (f64, f64),
-    /// Current, in milliamperes; `None` where the source gives none.
-    pub milliamps: Option<u32>,
-    /// What else the source says.
-    pub note: &'static str,
-    /// Where it is from.
-    pub source: &'static str,
-}
-
-/// What the battery of models BM must have, in volts (MPP and PT, "Electrical").
-pub const BATTERY_VOLTS: (f64, f64) = (2.7, 3.6);
-
 /// Something to know, with where it is from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
@@ -287,8 +274,8 @@ pub struct Wiring {
     pub setup: Setup,
     /// The wires, in the order of their pins.
     pub wires: Vec<Wire>,
-    /// What the encoder is supplied with.
-    pub supply: Supply,
+    /// Voltage, current and start-up time, as far as the source has them.
+    pub supply: Vec<&'static Fact>,
     /// The terminal of the adapter that is joined with 0 V; `None` where the source names none.
     pub ground: Option<Terminal>,
     /// Resistors at the ends of the pairs.
@@ -319,7 +306,10 @@ impl Setup {
         let terminators = terminators::of(self);
         let warnings = advice::of(self);
         Ok(Wiring {
-            supply: pins::supply(self.series),
+            supply: [SUPPLY, CURRENT, "start-up"]
+                .iter()
+                .filter_map(|name| self.series.fact(name))
+                .collect(),
             ground: self.adapter.ground(),
             shield: pins::shield(self.series),
             source: pins::source(self),

@@ -138,7 +138,7 @@ fn commands(profile: &Profile, change: Change, script: &Script, source: &'static
         .any(|step| step.expect == Expect::CountsRound);
     let last = script.rounds;
     let counted = match counts {
-        true => format!("the reply to the last of each counts C = 1, 2 … {last}"),
+        true => format!("each round counts one more: C = 1, 2 … {last}"),
         false => "a good reply to each".into(),
     };
     let times = match script.round.len() {

@@ -1,11 +1,11 @@
 //! What to beware of, each with its source.
 
-use super::{Adapter, BATTERY_VOLTS, Battery, Setup, Warning, pins};
+use super::{Adapter, Battery, Setup, Warning};
 use crate::{
     adapter::{CHIPS, Made},
     explain::grouped,
     format::Link,
-    product::{Interface, Series},
+    product::{Interface, Series, facts::SUPPLY},
 };
 use alloc::{format, string::String, vec::Vec};
 
@@ -14,14 +14,14 @@ pub(super) fn of(setup: Setup) -> Vec<Warning> {
     let mut say = |name, source, text: String| said.push(Warning { name, text, source });
     let (source, text) = supply(setup.series);
     say("supply", source, text);
-    if setup.battery == Battery::Fitted {
-        let (low, high) = BATTERY_VOLTS;
+    let battery = setup.series.fact("battery").map(|fact| fact.value);
+    if let (Battery::Fitted, Some(volts)) = (setup.battery, battery) {
         say(
             "battery",
             "MPP and PT, notes to the pins; characteristics",
             format!(
-                "The battery has {low:.1}…{high:.1} V. Its minus is joined to 0 V inside the \
-                 encoder: one battery for several encoders joins their 0 V too."
+                "The battery has {volts}. Its minus is joined to 0 V inside the encoder: one \
+                 battery for several encoders joins their 0 V too."
             ),
         );
     }
@@ -37,25 +37,25 @@ pub(super) fn of(setup: Setup) -> Vec<Warning> {
     said
 }
 
-/// The supplies differ so much that one encoder's destroys the other.
+/// No series takes the supply of another.
 fn supply(series: Series) -> (&'static str, String) {
-    let (low, high) = pins::supply(series).volts;
+    let volts = |series: Series| series.fact(SUPPLY).map_or("", |fact| fact.value);
     let others = [Series::Mpp, Series::Ip75, Series::Avs58].into_iter();
     let others: Vec<String> = others
-        .filter(|other| pins::supply(*other).volts != (low, high))
+        .filter(|other| volts(*other) != volts(series))
         .map(|other| {
-            let (low, high) = pins::supply(other).volts;
             let name = match other {
                 Series::Mpp => "MPP and PT",
                 Series::Avs58 => "Pepperl+Fuchs",
                 other => other.name(),
             };
-            format!("{name} {low}…{high} V")
+            format!("{name} {}", volts(other))
         })
         .collect();
     let text = format!(
-        "{} takes {low}…{high} V at the encoder. Others do not take the same: {}.",
+        "{} takes {} at the encoder. Others do not take the same: {}.",
         series.name(),
+        volts(series),
         others.join(", ")
     );
     let source = "MPP and PT, characteristics; IP-75, table 1; P+F article, table 6";
@@ -107,13 +107,6 @@ fn interface(setup: Setup) -> Vec<Advice> {
              the maker for more than two."
                 .into(),
         )),
-        Interface::Rs485 | Interface::T485 => said.push((
-            "terminator",
-            "MPP and PT, RS485 and T485",
-            "MPP and PT contradict each other: MPP asks for terminators at both ends and names \
-             none inside, PT has the encoder's inside. Measure before adding a third."
-                .into(),
-        )),
         Interface::Ssi | Interface::BissC | Interface::Ssi7 | Interface::SsiTree => said.push((
             "clocked",
             "MPP and PT, SSI and BiSS-C; IP-75, 5.4.1; P+F article",
@@ -121,7 +114,19 @@ fn interface(setup: Setup) -> Vec<Advice> {
              cannot read it at all."
                 .into(),
         )),
-        Interface::Rs422 => {}
+        Interface::Rs422 | Interface::Rs485 | Interface::T485 => {}
+    }
+    if matches!(
+        setup.interface,
+        Interface::Rs485 | Interface::T485 | Interface::Period
+    ) {
+        said.push((
+            "terminator",
+            "MPP and PT, RS485, T485 and PERIOD",
+            "MPP and PT contradict each other: MPP asks for terminators at both ends and names \
+             none inside, PT has the encoder's inside. Measure before adding a third."
+                .into(),
+        ));
     }
     if (setup.interface, setup.battery) == (Interface::Bus, Battery::Fitted) {
         said.push((

@@ -141,11 +141,10 @@ fn encoder(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
         wiring.setup.series.name(),
         wiring.setup.interface.title()
     );
-    let (low, high) = wiring.supply.volts;
-    let supply = format!("{low}…{high} V");
+    let supply = wiring.supply.first().map_or("", |fact| fact.value);
     let y = TOP - 46.0;
     ink.text((left + 2.0, y), "w-ink", 13, BOLD, &name);
-    ink.text((OTHER.0 + 2.0, y), "w-dim", 12, "", &supply);
+    ink.text((OTHER.0 + 2.0, y), "w-dim", 12, "", supply);
     for row in rows {
         let Some(wire) = row.wire else { continue };
         if let Some(pin) = wire.pin {

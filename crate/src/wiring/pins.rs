@@ -5,7 +5,7 @@ use super::{
     Line::{self, FromEncoder, Level, Shared, ToEncoder, Unused},
     Paint, Place,
     Polarity::{Minus, Plus},
-    Setup, Shield, Supply, Terminal, Wire,
+    Setup, Shield, Terminal, Wire,
 };
 use crate::product::{Interface, Series};
 use alloc::vec::Vec;
@@ -256,35 +256,6 @@ impl Adapter {
             Self::Apci1710 => None,
             _ => Some(terminal(Place::Adapter, "GND", Line::Supply(Minus))),
         }
-    }
-}
-
-pub(super) const fn supply(series: Series) -> Supply {
-    match series {
-        Series::Mpp => Supply {
-            volts: (4.5, 5.5),
-            milliamps: Some(60),
-            note: "ready after 15 ms",
-            source: "MPP, characteristics",
-        },
-        Series::Pt => Supply {
-            volts: (4.5, 5.5),
-            milliamps: Some(100),
-            note: "ready after 15 ms",
-            source: "PT, parameters",
-        },
-        Series::Ip75 => Supply {
-            volts: (5.0, 7.0),
-            milliamps: Some(200),
-            note: "first position after 0.15 s at most; a diode guards against reversed polarity",
-            source: "IP-75, table 1 and 5.1.2",
-        },
-        Series::Avs58 | Series::Avm58 | Series::Ass58 | Series::Asm58 => Supply {
-            volts: (10.0, 30.0),
-            milliamps: None,
-            note: "the article gives no current",
-            source: "P+F article, table 6",
-        },
     }
 }
 

@@ -77,7 +77,7 @@ const IN: Pair = ("IN CLK+", "IN CLK−");
 /// The user's own, at the controller.
 const fn own(setup: Setup, between: Pair, source: &'static str) -> Terminator {
     let (presence, text) = match setup.adapter {
-        Adapter::TwoWire => (Presence::Switched, "switch on the one of the adapter"),
+        Adapter::TwoWire => (Presence::Switched, "the adapter has one"),
         Adapter::TwoWireBare => (Presence::Added, "add one at the terminals of the adapter"),
         Adapter::FourWire => (
             Presence::Added,

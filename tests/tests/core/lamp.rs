@@ -213,7 +213,7 @@ fn a_reply_with_a_weak_battery_has_a_yellow_lamp_that_blinks() {
     let health = Health {
         error: values.error.unwrap(),
         warning: values.warning.unwrap(),
-        status: values.status.unwrap() as u8,
+        status: values.status.unwrap(),
     };
     assert_eq!(health, Health::of_byte(0x60));
     assert_eq!(health.lamp().name(), "yellow-blinking");

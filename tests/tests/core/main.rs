@@ -56,3 +56,4 @@ mod tables;
 mod vectors;
 mod vectors_ssi;
 mod wiring;
+mod wiring_pictures;

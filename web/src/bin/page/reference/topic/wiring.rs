@@ -107,12 +107,14 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
         setup.adapter.key()
     );
     let profile = setup.interface.format().default_profile();
-    let supply = wiring.supply;
-    let (low, high) = supply.volts;
-    let current = match supply.milliamps {
-        Some(milliamps) => format!(", {milliamps} mA"),
-        None => String::new(),
-    };
+    let supply = wiring.supply.iter();
+    let supply: Vec<_> = supply
+        .map(|fact| format!("{} {}", fact.name, fact.value))
+        .collect();
+    let characteristics = filled_link(
+        Leaf::Topic(Topic::Products),
+        &[("series", setup.series.key())],
+    );
     let order_code = filled_link(Leaf::Topic(Topic::OrderCode), &[]);
     let zero = filled_link(
         Leaf::Topic(Topic::Zero),
@@ -142,7 +144,8 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
                 </Scroll>
             </div>
             <p data-testid="wiring-supply">
-                "Supply: " <b>{format!("{low}…{high} V{current}")}</b> ", " {supply.note} " (" {supply.source} ")."
+                <a href=characteristics>"Characteristics"</a>
+                ": " {supply.join(", ")} "."
             </p>
             <p class="doors">
                 <button
@@ -234,17 +237,17 @@ fn terminator_row(terminator: Terminator) -> impl IntoView {
         End::Encoder => "the encoder",
         End::Controller => "the controller",
     };
-    let (name, tone) = match terminator.presence {
-        Presence::Inside => ("inside", "good"),
-        Presence::Switched => ("switched", "warn"),
-        Presence::Added => ("added", "warn"),
-        Presence::Unclear => ("unclear", "warn"),
+    let (name, word, tone) = match terminator.presence {
+        Presence::Inside => ("inside", "yes: ", "good"),
+        Presence::Switched => ("switched", "to switch on: ", "warn"),
+        Presence::Added => ("added", "no: ", "warn"),
+        Presence::Unclear => ("unclear", "the manuals differ: ", "warn"),
     };
     view! {
         <tr data-testid="wiring-terminator" data-value=name>
             <th scope="row">{format!("{plus} and {minus}")}</th>
             <td class="words">{end}</td>
-            <td class=format!("words {tone}")>{terminator.text}</td>
+            <td class="words"><b class=format!("presence {tone}")>{word}</b> {terminator.text}</td>
             <td class="words doc">{terminator.source}</td>
         </tr>
     }

@@ -79,7 +79,7 @@ fn procedure(procedure: Procedure) -> impl IntoView {
         <section class="part" aria-labelledby=id.clone() data-testid="zero-way" data-name=procedure.name>
             <h2 id=id.clone()>{procedure.title}</h2>
             <p>{procedure.about}</p>
-            <ol class="steps">{procedure.steps.into_iter().map(step).collect_view()}</ol>
+            <ol class="checklist">{procedure.steps.into_iter().map(step).collect_view()}</ol>
             {(!notes.is_empty()).then(|| view! { <ul class="warnings">{notes}</ul> })}
             {console}
         </section>
