@@ -164,7 +164,7 @@ fn field(note: Note) -> impl IntoView {
                     bits => format!("{bits} bits"),
                 }}
             </span>
-            <div>
+            <div class="says">
                 <p>{note.text}</p>
                 <p class="doc">{note.doc}</p>
                 {note.fault.map(|fault| view! { <p class="fault">{fault.kind.to_string()}</p> })}
