@@ -54,7 +54,7 @@ pub(super) fn Page() -> impl IntoView {
     });
     let options = Series::ALL.map(|series| {
         view! {
-            <option value=series.key() selected=move || chosen.get() == Some(series)>
+            <option value=series.key() prop:selected=move || chosen.get() == Some(series)>
                 {series.name()}
             </option>
         }
@@ -86,7 +86,7 @@ pub(super) fn Page() -> impl IntoView {
                             data-testid="product-series"
                             on:change:target=move |event| choose(event.target().value())
                         >
-                            <option value="" selected=move || chosen.get().is_none()>"all"</option>
+                            <option value="" prop:selected=move || chosen.get().is_none()>"all"</option>
                             {options.into_view()}
                         </select>
                     </span>

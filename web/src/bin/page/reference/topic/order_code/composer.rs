@@ -55,7 +55,7 @@ pub(super) fn Composer(looks: Memo<Vec<Look>>) -> impl IntoView {
         all_series()
             .map(|(name, title)| {
                 view! {
-                    <option value=name selected=name == present>{title}</option>
+                    <option value=name prop:selected=name == present>{title}</option>
                 }
             })
             .collect_view()
@@ -171,7 +171,7 @@ fn options(form: &'static Form, index: usize, texts: &[String]) -> Vec<AnyView> 
                 "" => format!("nothing: {doc}"),
                 text => format!("{text}: {doc}"),
             };
-            view! { <option value=text.clone() selected=text == present>{title}</option> }
+            view! { <option value=text.clone() prop:selected=text == present>{title}</option> }
                 .into_any()
         })
         .collect()
