@@ -9,6 +9,7 @@ mod captures;
 mod captures_files;
 mod captures_pieces;
 mod captures_timing;
+mod columns;
 mod corpus;
 mod crc_search;
 mod detection;
