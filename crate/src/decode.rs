@@ -17,6 +17,7 @@ use crate::{
     reading::{Fault, FaultKind, Reading, Values},
 };
 use alloc::{borrow::Cow, vec, vec::Vec};
+pub(crate) use leads::Follows;
 use leads::{Lead, NO_LEAD};
 
 /// A frame: its bits, and the layout that reads them.

@@ -23,13 +23,7 @@ mod evidence;
 mod text;
 mod weigh;
 
-use crate::{
-    bits::{self, Bits},
-    decode::Decoder,
-    format::Format,
-    layout::Resolved,
-    reading::Reading,
-};
+use crate::{bits::Bits, decode::Decoder, format::Format, layout::Resolved, reading::Reading};
 use alloc::vec::Vec;
 use core::fmt;
 use evidence::{Position, WINDOW};
@@ -49,7 +43,22 @@ pub struct Piece<'a> {
     pub kind: PieceKind<'a>,
 }
 
-impl Piece<'_> {
+impl<'a> Piece<'a> {
+    /// The frames of a run, one by one; of any other piece itself.
+    pub fn frames(self) -> impl Iterator<Item = Self> + 'a {
+        let len = match self.kind {
+            PieceKind::Frame { layout, .. } => layout.len / 8,
+            PieceKind::Skip(_) => self.bytes.len(),
+        };
+        let starts = (self.start..).step_by(len.max(1));
+        let frames = self.bytes.chunks_exact(len.max(1)).zip(starts);
+        frames.map(move |(bytes, start)| Self {
+            start,
+            bytes,
+            kind: self.kind,
+        })
+    }
+
     /// Position and health, of a good frame only.
     #[must_use]
     pub fn reading(&self) -> Option<Reading> {
@@ -208,12 +217,34 @@ impl Framer {
 
     /// Takes more input.
     pub fn push(&mut self, decoder: &Decoder, bytes: &[u8], sink: &mut Sink<'_>) {
-        self.buffer.extend_from_slice(bytes);
-        self.run(decoder, Ending::Open, sink);
+        self.push_runs(decoder, bytes, &mut |run| run.frames().for_each(&mut *sink));
     }
 
     /// The input has ended; reports what is left.
     pub fn finish(&mut self, decoder: &Decoder, sink: &mut Sink<'_>) {
+        self.finish_runs(decoder, &mut |run| run.frames().for_each(&mut *sink));
+    }
+
+    /// Takes more input; good frames of one layout that follow one another come as one piece,
+    /// which is quicker to read into columns.
+    ///
+    /// ```
+    /// use encoderscope::{columns::Columns, decode::Decoder, framing::Framer, profile::Profile};
+    /// let decoder = Decoder::new(Profile::parse([("format", "t485")])?)?;
+    /// let stream = [0x02, 0x20, 0xb4, 0xbd, 0x1c, 0x37].repeat(1000);
+    /// let (mut framer, mut columns) = (Framer::at_start(), Columns::default());
+    /// framer.push_runs(&decoder, &stream, &mut |run| columns.take(&run));
+    /// framer.finish_runs(&decoder, &mut |run| columns.take(&run));
+    /// assert_eq!(columns.angle, [0x1c_bdb4; 1000]);
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    pub fn push_runs(&mut self, decoder: &Decoder, bytes: &[u8], sink: &mut Sink<'_>) {
+        self.buffer.extend_from_slice(bytes);
+        self.run(decoder, Ending::Open, sink);
+    }
+
+    /// The input has ended; reports what is left, in runs.
+    pub fn finish_runs(&mut self, decoder: &Decoder, sink: &mut Sink<'_>) {
         self.run(decoder, Ending::Closed, sink);
         self.flush(0, self.skipped, sink);
         self.base += self.skipped as u64;
@@ -288,41 +319,29 @@ impl Framer {
         let mut moved = None;
         while let Some(layout) = self.beyond_doubt(decoder, &self.buffer[at..]) {
             let len = layout.len / 8;
-            let kind = decoder.kind(self.buffer[at]);
-            let mut repeats = self.previous == self.buffer[at..at + len];
-            let mut word = bits::word(&self.buffer[at..at + len.min(8)]);
-            loop {
-                let bytes = &self.buffer[at..at + len];
-                sink(Piece {
-                    start: self.base + at as u64,
-                    bytes,
-                    kind: PieceKind::Frame {
-                        layout,
-                        sure: true,
-                        holds: true,
-                    },
-                });
-                if layout.has_angle {
-                    moved = Some((layout, at));
-                }
-                at += len;
-                // What follows is mostly the same kind of frame, which is judged here.
-                let next = &self.buffer[at..];
-                let Some((new, true)) = layout.is_sound_word(next) else {
-                    break;
-                };
-                if kind.is_none() || decoder.kind(next[0]) != kind {
-                    break;
-                }
-                let same = new == word;
-                if repeats && !same {
-                    break;
-                }
-                (repeats, word) = (same, new);
+            let run = &self.buffer[at..];
+            let repeats = self.previous == run[..len];
+            let (frames, repeats) = match decoder.follower(run[0]) {
+                Some(follows) => layout.run(run, repeats, follows),
+                None => (1, repeats),
+            };
+            let run = &run[..frames * len];
+            sink(Piece {
+                start: self.base + at as u64,
+                bytes: run,
+                kind: PieceKind::Frame {
+                    layout,
+                    sure: true,
+                    holds: true,
+                },
+            });
+            at += run.len();
+            if layout.has_angle {
+                moved = Some((layout, at - len));
             }
             self.repeats = repeats;
             self.previous.clear();
-            self.previous.extend_from_slice(&self.buffer[at - len..at]);
+            self.previous.extend_from_slice(&run[run.len() - len..]);
         }
         if let Some((layout, last)) = moved {
             let bytes = &self.buffer[last..last + layout.len / 8];

@@ -6,7 +6,7 @@
 //! - [`capture`]: edges that a logic analyser has recorded to frames, with the timing checked;
 //! - [`framing`]: bytes, cut anyhow, into frames and skips;
 //! - [`decode`]: a [`decode::Frame`] is bits and the layout that reads them;
-//! - [`reading`]: what the shaft does, from good frames only;
+//! - [`reading`]: what the shaft does, from good frames only; [`columns`]: many at once;
 //! - [`explain`]: what the bits say, from any frame; [`sketch`]: a frame that is changed bit by
 //!   bit; [`diagram`]: pictures of frames, and what the wires do;
 //! - [`detect`]: what a dump may be, ranked by evidence; [`sheet`]: a decoded dump as a table;
@@ -39,6 +39,7 @@ pub mod bits;
 pub mod calculator;
 pub mod capture;
 pub mod check;
+pub mod columns;
 pub mod conversation;
 pub mod crc_search;
 pub mod decode;

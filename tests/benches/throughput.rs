@@ -16,6 +16,7 @@ fn main() {
 mod native {
     use encoderscope::{
         capture::{Options, Recording, sniff, wave::Wave},
+        columns::Columns,
         decode::Decoder,
         dump::Reader,
         format::Medium,
@@ -164,27 +165,20 @@ mod native {
     /// Reads everything; returns something that depends on all of it.
     fn read(decoder: &Decoder, bytes: &[u8]) -> u64 {
         let mut framer = Framer::at_start();
+        let mut columns = Columns::default();
         let mut sum = 0u64;
-        let mut frames = 0u64;
-        let mut sink = |piece: encoderscope::framing::Piece<'_>| {
-            if let Some(reading) = piece.reading() {
-                frames += 1;
-                sum = sum
-                    .wrapping_add(reading.angle)
-                    .wrapping_add(reading.turns.unwrap_or(0) as u64)
-                    .wrapping_add(reading.status.unwrap_or(0).into())
-                    .wrapping_add(u64::from(reading.error) + u64::from(reading.warning));
-            }
-        };
+        let mut frames = 0;
         for chunk in bytes.chunks(CHUNK) {
-            framer.push(decoder, chunk, &mut sink);
+            framer.push_runs(decoder, chunk, &mut |run| columns.take(&run));
+            frames += columns.len();
+            sum = sum.wrapping_add(columns.angle.last().copied().unwrap_or(0));
+            black_box(&columns);
+            columns.clear();
         }
-        framer.finish(decoder, &mut sink);
+        framer.finish_runs(decoder, &mut |run| columns.take(&run));
+        frames += columns.len();
         let least = bytes.len() / decoder.longest();
-        assert!(
-            frames as usize * 100 > least * 99,
-            "{frames} of {least} frames"
-        );
+        assert!(frames * 100 > least * 99, "{frames} of {least} frames");
         sum
     }
 

@@ -20,12 +20,11 @@ pub(super) const NO_LEAD: Lead = Lead {
     request: false,
     names: 0,
     unsure: false,
-    kind: None,
 };
 
 /// What the first byte of a frame says.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lead {
+pub(crate) struct Lead {
     /// Which layout the frame has; one that does not exist where there is none.
     layout: u8,
     /// Whether it is a request that may stand before its reply in a dump.
@@ -34,8 +33,30 @@ pub(super) struct Lead {
     names: i8,
     /// Whether an encoder may not know the request, and answer with another layout.
     unsure: bool,
-    /// See [`Decoder::kind`].
-    kind: Option<u8>,
+}
+
+/// How frames begin that follow another without being weighed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Follows<'d> {
+    /// With the same byte; where it is a request too, not twice.
+    Echo { byte: u8, request: bool },
+    /// With any byte that is no request. All have one layout.
+    NoRequest(&'d [Lead; 256]),
+}
+
+impl Follows<'_> {
+    /// Whether a frame at the start of `bytes` begins so.
+    #[inline(always)]
+    pub(crate) fn holds<const N: usize>(self, bytes: &[u8; N]) -> bool {
+        let (first, second) = (bytes.first(), bytes.get(1));
+        match (self, first) {
+            (Self::Echo { byte, request }, Some(first)) => {
+                *first == byte && !(request && second == Some(first))
+            }
+            (Self::NoRequest(leads), Some(first)) => !leads[usize::from(*first)].request,
+            (_, None) => false,
+        }
+    }
 }
 
 impl Decoder {
@@ -67,11 +88,6 @@ impl Decoder {
             layout: index.map_or(u8::MAX, |index| index as u8),
             request,
             names,
-            kind: match self.echoes() {
-                _ if request || names < 0 => None,
-                true => Some(byte),
-                false => index.map(|index| index as u8),
-            },
             unsure: asked.is_some_and(|asked| !asked.is_known_to(Dialect::Mpp)),
         }
     }
@@ -149,11 +165,20 @@ impl Decoder {
         (!holds(&own) && holds(&angle)).then_some(angle)
     }
 
-    /// What kind of frame `byte` begins: those of one kind may follow one another without being
-    /// weighed. A request begins none.
+    /// How the frames begin that may follow one beginning with `byte` without being weighed;
+    /// `None` where each is to be weighed.
     #[inline]
-    pub(crate) const fn kind(&self, byte: u8) -> Option<u8> {
-        self.leads[byte as usize].kind
+    pub(crate) fn follower(&self, byte: u8) -> Option<Follows<'_>> {
+        let lead = self.leads.get(usize::from(byte))?;
+        match self.echoes() {
+            true if lead.unsure || lead.names < 0 => None,
+            true => Some(Follows::Echo {
+                byte,
+                request: lead.request,
+            }),
+            false if lead.request => None,
+            false => Some(Follows::NoRequest(&self.leads)),
+        }
     }
 
     /// Whether `byte` is a request that may stand before its reply in a dump.

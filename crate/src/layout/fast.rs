@@ -8,12 +8,16 @@
 use super::{Active, Field, Resolved, Role};
 use crate::{
     bits::{self, BitString, Bits, Span},
+    columns::{Columns, Health},
+    decode::Follows,
     reading::Reading,
 };
 use alloc::{boxed::Box, vec::Vec};
 
 /// Bytes of a word.
 const WORD: usize = 8;
+/// Frames that are read into columns at once.
+const BATCH: usize = 64;
 
 /// What a word of a frame must be, and what its bytes add to the checks of the frame.
 #[derive(Clone, Debug)]
@@ -220,18 +224,108 @@ impl Resolved {
         !(self.is_zero_led && frame.last() == Some(&0))
     }
 
-    /// The frame at the start of `bytes` as a number, and whether it is sound; `None` where it does not hold, or is not
-    /// one that is judged as one word out of eight bytes.
+    /// How many frames at the start of `bytes`, of which the first has been judged, hold, are
+    /// sound, and begin as `follows` wants; and whether the last is the one before it again, as
+    /// `repeats` says of the first. A frame that ends repetition is left to be judged otherwise.
+    #[inline]
+    pub(crate) fn run(&self, bytes: &[u8], repeats: bool, follows: Follows<'_>) -> (usize, bool) {
+        let Some(fast) = self.fast.as_deref() else {
+            return (1, repeats);
+        };
+        match fast.before {
+            None => self.run_of(fast, bytes, repeats, follows, Self::short),
+            Some(_) => self.run_of(fast, bytes, repeats, follows, Self::long),
+        }
+    }
+
     #[inline(always)]
-    pub(crate) fn is_sound_word(&self, bytes: &[u8]) -> Option<(u64, bool)> {
-        let fast = self.fast.as_deref().filter(|_| self.len <= WORD * 8)?;
-        let chunk = bytes.first_chunk::<WORD>()?;
-        let word = bits::above(u64::from_be_bytes(*chunk), (WORD * 8 - self.len) as u32);
-        let mut wrong = 0;
-        let mut sum = fast.none;
-        fast.last.judge(word, &mut wrong, &mut sum);
-        let holds = wrong == 0 && sum == 0;
-        holds.then(|| (word, !(self.is_zero_led && bits::low_byte(word) == 0)))
+    fn run_of(
+        &self,
+        fast: &Fast,
+        bytes: &[u8],
+        mut repeats: bool,
+        follows: Follows<'_>,
+        words: impl Fn(&Self, &[u8; 2 * WORD]) -> [u64; 2],
+    ) -> (usize, bool) {
+        let len = self.len / 8;
+        let sound = if self.is_zero_led { 0xff } else { 0 };
+        let mut frames = 1;
+        let Some(first) = bytes.first_chunk() else {
+            return (frames, repeats);
+        };
+        let mut previous = words(self, first);
+        let mut rest = bytes.get(len..).unwrap_or_default();
+        while let Some(next) = rest.first_chunk() {
+            let now = words(self, next);
+            let mut wrong = 0;
+            let mut sum = fast.none;
+            fast.last.judge(now[0], &mut wrong, &mut sum);
+            if let Some(before) = &fast.before {
+                before.judge(now[1], &mut wrong, &mut sum);
+            }
+            let late = sound != 0 && now[0] & sound == 0;
+            let same = now == previous;
+            if wrong != 0 || sum != 0 || late || repeats && !same || !follows.holds(next) {
+                break;
+            }
+            (repeats, previous) = (same, now);
+            frames += 1;
+            rest = rest.get(len..).unwrap_or_default();
+        }
+        (frames, repeats)
+    }
+
+    /// The frame of up to eight bytes at the start of a chunk as a number.
+    #[inline(always)]
+    fn short(&self, chunk: &[u8; 2 * WORD]) -> [u64; 2] {
+        let word = chunk
+            .first_chunk()
+            .map_or(0, |word| u64::from_be_bytes(*word));
+        [bits::above(word, (WORD * 8 - self.len) as u32), 0]
+    }
+
+    /// The last eight bytes of the longer frame at the start of a chunk, and those before.
+    #[inline(always)]
+    fn long(&self, chunk: &[u8; 2 * WORD]) -> [u64; 2] {
+        let cut = self.len / 8 - WORD;
+        let word = |at: usize| {
+            let word = chunk.get(at..).and_then(<[u8]>::first_chunk);
+            word.map_or(0, |word| u64::from_be_bytes(*word))
+        };
+        [word(cut), bits::above(word(0), ((WORD - cut) * 8) as u32)]
+    }
+
+    /// Adds a run of frames whose checks hold to columns.
+    pub(crate) fn columns(&self, run: &[u8], columns: &mut Columns) {
+        let frames = run.chunks_exact(self.len / 8);
+        let Some(fast) = self.fast.as_deref().filter(|fast| fast.angle.exists) else {
+            for frame in frames {
+                columns.push(self.position(Bits::of_bytes(frame)));
+            }
+            return;
+        };
+        let mut words = [[0; 2]; BATCH];
+        let mut rest = run;
+        while !rest.is_empty() {
+            let mut filled = 0;
+            for slot in &mut words {
+                let Some(frame) = rest.get(..self.len / 8).filter(|frame| !frame.is_empty()) else {
+                    break;
+                };
+                let (before, last) = frame.split_at(frame.len().saturating_sub(WORD));
+                *slot = match (rest.first_chunk(), before.is_empty()) {
+                    (Some(chunk), true) => self.short(chunk),
+                    (Some(chunk), false) => self.long(chunk),
+                    (None, _) => [bits::word(last), bits::word(before)],
+                };
+                rest = rest.get(self.len / 8..).unwrap_or_default();
+                filled += 1;
+            }
+            if filled == 0 {
+                break;
+            }
+            fast.add(self, words.get(..filled).unwrap_or_default(), columns);
+        }
     }
 
     /// Position and health of a frame whose checks hold; `None` where the layout has not been
@@ -268,6 +362,38 @@ impl Sieve {
 }
 
 impl Fast {
+    /// Adds frames, as their last eight bytes and those before, to columns.
+    #[inline]
+    fn add(&self, layout: &Resolved, frames: &[[u64; 2]], columns: &mut Columns) {
+        let read = |[last, before]: &[u64; 2], take: &Take| {
+            let (word, below) = match take.below.checked_sub(u64::BITS) {
+                Some(below) => (before, below),
+                None => (last, take.below),
+            };
+            bits::above(*word, below) & take.mask
+        };
+        let number = |frame: &[u64; 2], number: &Number| {
+            let part = |take: &Take| bits::raised(read(frame, take), take.place);
+            let first = part(&number.first);
+            number.more.iter().fold(first, |sum, take| sum | part(take))
+        };
+        let is = |frame: &[u64; 2], flag: &Flag| read(frame, &flag.at) == flag.asserted;
+        let angle = frames.iter().map(|frame| number(frame, &self.angle));
+        columns.angle.extend(angle);
+        let turns = frames
+            .iter()
+            .map(|frame| layout.turns(number(frame, &self.turns)));
+        columns.turns.extend(turns);
+        let status = frames
+            .iter()
+            .map(|frame| bits::low_byte(number(frame, &self.status)));
+        columns.status.extend(status);
+        let health = frames
+            .iter()
+            .map(|frame| Health::of(is(frame, &self.error), is(frame, &self.warning)));
+        columns.health.extend(health);
+    }
+
     #[inline]
     fn position(&self, layout: &Resolved, read: impl Fn(&Take) -> u64) -> Option<Reading> {
         if !self.angle.exists {

@@ -12,6 +12,7 @@ mod captures;
 mod captures_files;
 mod captures_pieces;
 mod captures_timing;
+mod columns;
 mod corpus;
 mod crc_search;
 mod detection;
