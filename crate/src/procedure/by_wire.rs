@@ -44,7 +44,7 @@ pub(super) fn ip75(interface: Interface) -> Zero {
         _ => None,
     };
     let late = "After those seconds the inputs do nothing: a wire joined later changes nothing.";
-    let still = Step::by_hand(STILL.0, STILL.1, SOURCE);
+    let still = Step::by_hand(STILL.0, STILL.1, "IP-75, table 1");
     let set = Procedure {
         name: "zero-set",
         title: "Set the zero with ZERO SET (violet)",
