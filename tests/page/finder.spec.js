@@ -116,8 +116,10 @@ test('the ladder shows how far a link has come @serial', async ({ page }) => {
   await at(page, 'connect').click();
   await expectLink(page, 'silent');
   expect(await ladder(page)).toEqual(['good', 'bad', 'idle', 'idle', 'idle']);
+  await expect(at(page, 'link-help')).toHaveAttribute('href', '#/reference?page=wiring&series=mpp&interface=t485');
   encoder.set('silent=0');
   await expectLink(page, 'reading');
+  await expect(at(page, 'link-help')).toHaveCount(0);
   await expect.poll(() => ladder(page)).toEqual(['good', 'good', 'good', 'good', 'good']);
   await expect(at(page, 'rung').nth(0)).toContainText('2\u2009500\u2009000 baud');
   await expect(at(page, 'rung').nth(1)).toContainText('ms');
@@ -152,6 +154,7 @@ test('an adapter that cannot make the rate is named, and nothing is sent through
   await at(page, 'connect').click();
   await expectLink(page, 'rate-not-made');
   await expect(page.getByRole('alert')).toContainText('3\u2009000\u2009000');
+  await expect(at(page, 'link-help')).toHaveAttribute('href', '#/reference?page=adapters&rate=2500000');
   expect(await count(page, 'opened')).toBe(0);
   await at(page, 'find').click();
   await expect(at(page, 'search')).toHaveAttribute('data-done', 'true', { timeout: 20_000 });
