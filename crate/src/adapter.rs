@@ -25,7 +25,7 @@ pub struct Chip {
 enum Clock {
     /// This many baud divided by 2 and more in steps of 1/8; and by 1 and 1.5.
     Eighths(u32),
-    /// Nothing above this rate; what it makes below is near enough.
+    /// Its maker's list ends at this rate.
     UpTo(u32),
     /// Not known: measure.
     Unknown,
@@ -36,6 +36,8 @@ enum Clock {
 pub enum Made {
     /// So many baud, which is near enough.
     Rate(f64),
+    /// Its maker's list goes so far; what it makes exactly is not known.
+    Listed,
     /// Not this rate: the nearest that the chip makes is so many baud, which no encoder bears.
     Not(f64),
     /// Not known.
@@ -64,8 +66,15 @@ const fn chip(
     }
 }
 
+/// What full-speed chips divide, in baud; below `SLOW` high-speed ones do as they do.
+const FULL: u32 = 3_000_000;
+const SLOW: f64 = 1_200.0;
+/// The greatest divider, in eighths: 14 bits and three behind the point.
+const GREATEST: f64 = 131_071.0;
 const HIGH_SPEED: Clock = Clock::Eighths(12_000_000);
-const FULL_SPEED: Clock = Clock::Eighths(3_000_000);
+const FULL_SPEED: Clock = Clock::Eighths(FULL);
+/// Both are as far from 2.5 Mbaud.
+const GAP: &str = "makes nothing between 2 and 3 Mbaud; drivers take one or the other";
 
 /// Chips of common adapters.
 pub static CHIPS: &[Chip] = &[
@@ -77,9 +86,9 @@ pub static CHIPS: &[Chip] = &[
         "the older FT2232D says the same of itself and does as FT232R",
     ),
     chip("FT4232H", Some((0x0403, 0x6011)), HIGH_SPEED, ""),
-    chip("FT232R", Some((0x0403, 0x6001)), FULL_SPEED, ""),
-    chip("FT230X", Some((0x0403, 0x6015)), FULL_SPEED, ""),
-    chip("FT2232D", None, FULL_SPEED, ""),
+    chip("FT232R", Some((0x0403, 0x6001)), FULL_SPEED, GAP),
+    chip("FT230X", Some((0x0403, 0x6015)), FULL_SPEED, GAP),
+    chip("FT2232D", None, FULL_SPEED, GAP),
     chip(
         "CH340",
         Some((0x1a86, 0x7523)),
@@ -141,12 +150,16 @@ impl Chip {
         let asked = f64::from(baud.max(1));
         let nearest = match self.clock {
             Clock::Unknown => return Made::Unknown,
-            Clock::UpTo(most) => asked.min(f64::from(most)),
+            Clock::UpTo(most) if asked <= f64::from(most) => return Made::Listed,
+            Clock::UpTo(most) => f64::from(most),
             Clock::Eighths(base) => {
-                let base = f64::from(base);
+                let base = match asked < SLOW {
+                    true => f64::from(FULL),
+                    false => f64::from(base),
+                };
                 let eighths = (base * 8.0 / asked).max(16.0);
-                let below = eighths as u64 as f64;
-                let dividers = [below / 8.0, (below + 1.0) / 8.0, 1.0, 1.5];
+                let below = (eighths as u64 as f64).min(GREATEST);
+                let dividers = [below / 8.0, (below + 1.0).min(GREATEST) / 8.0, 1.0, 1.5];
                 let apart = |rate: f64| (rate - asked).abs();
                 dividers
                     .iter()

@@ -212,7 +212,10 @@ impl Input {
         (least, most): (f64, f64),
         default: &'static str,
     ) -> Self {
-        let whole = matches!(measure, Measure::Count | Measure::Bits | Measure::Address);
+        let whole = matches!(
+            measure,
+            Measure::Count | Measure::Rate | Measure::Bits | Measure::Address
+        );
         let kind = Kind::Number {
             measure,
             unit,
@@ -257,7 +260,7 @@ impl Input {
     fn read(&self, text: &str) -> Result<Entered, Fault> {
         let wrong = |message: String| Fault {
             input: self.name,
-            message: format!("{}: {message}", self.title.to_lowercase()),
+            message: format!("{}: {message}", lowered(self.title)),
         };
         match self.kind {
             Kind::Word(words) => {
@@ -286,12 +289,28 @@ impl Input {
                 if number > most {
                     return Err(wrong(format!("{text} is more than {}", say(most))));
                 }
-                if whole && number != (number as i64) as f64 {
-                    return Err(wrong(format!("{text} is not a whole number")));
+                let nearest = (number + 0.5) as i64 as f64;
+                match whole {
+                    // What a unit multiplies is not exact.
+                    true if (number - nearest).abs() > 1e-6 => {
+                        Err(wrong(format!("{text} is not a whole number")))
+                    }
+                    true => Ok(Entered::Number(nearest)),
+                    false => Ok(Entered::Number(number)),
                 }
-                Ok(Entered::Number(number))
             }
         }
+    }
+}
+
+/// A title as it stands within a sentence: what begins with more than one capital keeps them.
+fn lowered(title: &str) -> String {
+    let mut letters = title.chars();
+    match (letters.next(), letters.next()) {
+        (Some(first), Some(second)) if !second.is_uppercase() => {
+            first.to_lowercase().chain(title.chars().skip(1)).collect()
+        }
+        _ => title.to_string(),
     }
 }
 

@@ -389,7 +389,8 @@ impl Lamp {
                 "do not use the position; read the status bits, which name the reason"
             }
             (Light::Red, Rhythm::Blinking) => {
-                "do not use the turns; see to the battery, then set the zero of the turns anew"
+                "do not use the position; see to the battery, switch the encoder off and on, and \
+                 reference the turns anew"
             }
             (Light::Dark, _) => {
                 "check the supply and its polarity at the encoder's own pins; the manuals do not \
@@ -404,7 +405,7 @@ impl Lamp {
 pub const fn about(series: Series) -> &'static str {
     match series {
         Series::Mpp | Series::Pt => {
-            "MPP and PT have a LED of three colours: green, yellow with the warning bit, red with \
+            "MPP and PT have an LED of three colours: green, yellow with the warning bit, red with \
              the error bit; it blinks once a second for the bits of the battery. In BiSS-C, says \
              PT, the error bit stands only for the battery, and the warning bit for any error or \
              warning."

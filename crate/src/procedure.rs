@@ -128,7 +128,8 @@ fn offset(interface: Interface) -> Zero {
         Missing { text, source },
         Missing {
             text: "Where the encoder itself must hold the zero, order it with R (RS485), A \
-                   (RS422), T (T485) or D (BUS): those have commands.",
+                   (RS422) or D (BUS): those store it by command. T (T485) has a command too, but \
+                   the manuals do not say that it is kept without power.",
             source: "MPP and PT, order code",
         },
     ];

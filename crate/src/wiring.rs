@@ -261,8 +261,10 @@ pub struct Warning {
 /// What a shield is connected to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shield {
-    /// Grounded at the controller's end.
+    /// Grounded at the controller's end, as is recommended.
     AtController,
+    /// At one end or both, as the installation asks.
+    Depends,
     /// The source says nothing of one.
     Unsaid,
 }

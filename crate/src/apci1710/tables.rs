@@ -41,7 +41,7 @@ layout! {
 }
 
 layout! {
-    /// The word of one encoder, its last bit in D0; the bits above the word are filtered out.
+    /// The word of one encoder, its last bit in D0; the bits above the word are to be masked.
     pub(super) static SHIFT(p) {
         /// What has been clocked in, converted from Gray code where CONTROL says so.
         word: Framing[32];

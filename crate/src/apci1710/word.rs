@@ -101,7 +101,9 @@ impl Word {
                 raw: beside,
                 text: match beside {
                     0 => String::from("zero"),
-                    _ => String::from("not zero: the word is longer than the profile says"),
+                    _ => String::from(
+                        "not zero: left over, or the word is longer than the profile says",
+                    ),
                 },
                 bits: Vec::new(),
                 fault: None,

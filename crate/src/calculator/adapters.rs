@@ -105,6 +105,9 @@ fn made(chip: &Chip, asked: u32) -> Answer {
             say(rate),
             TOLERANCE * 100.0
         ))),
+        Made::Listed => Answer::said(chip.name, chip.name, "in its list")
+            .tone(Tone::Good)
+            .note(with("what it makes exactly is not published".into())),
         Made::Unknown => Answer::said(chip.name, chip.name, "not known")
             .tone(Tone::Warn)
             .note(chip.note),

@@ -42,7 +42,7 @@ pub(super) const APCI_1710: Calculator = Calculator {
     name: "apci-1710",
     title: "APCI-1710",
     about: "What is written to the SSI module of an APCI-1710 or CPCI-1710, where, and how long a reading takes.",
-    source: "P+F article, registers of the SSI module; offset of OUTPUT: Linux, comedi, APCI1710_Ssi.c",
+    source: "P+F article, registers of the SSI module; offsets of SHIFT and OUTPUT: Linux, comedi, APCI1710_Ssi.c",
     inputs: &[
         Input::number(
             "pci-clock",
@@ -145,7 +145,11 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
         "for the highest clock that is not above the one wished"
     ));
     let clock = Answer::of("real-clock", "The clock that results", real / 1e3, 6, "kHz");
-    let apart = (real / wished - 1.0) * 100.0;
+    let apart = match (real / wished - 1.0) * 100.0 {
+        // What is left of a division that goes out even.
+        apart if apart.abs() < 1e-6 => 0.0,
+        apart => apart,
+    };
     let converts = match control {
         0 => "no word is converted",
         _ => {

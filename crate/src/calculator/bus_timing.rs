@@ -64,7 +64,7 @@ pub(super) const BUS_TIMING: Calculator = Calculator {
         Input::number(
             "answer-delay",
             "Delay of the answer",
-            "from the end of the request to the start of the reply, about 3 µs",
+            "from the end of the request to the start of the reply; the manuals name none, 3 µs is usual with T485",
             (Measure::Time, "µs"),
             (0.0, 1e4),
             "3",
@@ -181,7 +181,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
             ),
             Answer::of(
                 "adapter-rate-together",
-                "Of all together",
+                "Of all together, through it",
                 devices * 1e6 / slow,
                 4,
                 "",

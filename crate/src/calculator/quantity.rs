@@ -122,6 +122,11 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
         end = after(end + 1, &is_part);
     }
     let (digits, name) = text.split_at(end);
+    if let Some(whole) = thousands(digits) {
+        return Err(format!(
+            "\"{text}\" may be a thousand or a fraction: write {whole} or use a point"
+        ));
+    }
     let digits: String = digits
         .chars()
         .filter(|letter| !letter.is_whitespace())
@@ -165,6 +170,14 @@ fn address(text: &str) -> Option<f64> {
         address = Some(address.unwrap_or(0.0) * 16.0 + f64::from(letter.to_digit(16)?));
     }
     address
+}
+
+/// The number with its comma taken for one that groups thousands, where it may be one.
+fn thousands(digits: &str) -> Option<String> {
+    let (whole, group) = digits.trim().split_once(',')?;
+    let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let unclear = !matches!(whole, "" | "0") && group.len() == 3;
+    (unclear && is_number(whole) && is_number(group)).then(|| format!("{whole}{group}"))
 }
 
 /// A number with so many significant digits, its thousands apart and without trailing zeros.

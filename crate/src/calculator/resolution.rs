@@ -1,6 +1,9 @@
 //! Bits, counts, degrees, seconds of arc, and millimetres at a radius.
 
-use super::{Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word, quantity::Measure};
+use super::{
+    Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word,
+    quantity::{Measure, rounded},
+};
 use alloc::format;
 
 const BITS: Word = Word {
@@ -44,7 +47,7 @@ pub(super) const RESOLUTION: Calculator = Calculator {
         Input::number(
             "value",
             "How much",
-            "a bare number counts what is chosen above",
+            "a number alone, of what is chosen above",
             (Measure::Fraction, ""),
             (0.0, MOST),
             "24",
@@ -97,16 +100,23 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     if counts > MOST {
         return Err(fault("a turn has more counts than 48 bits can say".into()));
     }
-    let bits = (0..=48u32).find(|bits| (1u64 << bits) as f64 >= counts);
-    let bits = bits.unwrap_or(48);
-    let exact = (1u64 << bits) as f64 == counts;
+    // Manuals print steps in few digits: those of 14 bits as 79.1″.
+    let rounding = match given.word("given") {
+        "bits" | "counts" => 0.0,
+        _ => 1e-3,
+    };
+    let enough = |bits: &u32| (1u64 << bits) as f64 * (1.0 + rounding) >= counts;
+    let bits = (0..=48).find(enough).unwrap_or(48);
+    let codes = (1u64 << bits) as f64;
+    let apart = (codes / counts - 1.0).abs();
     let step = 360.0 / counts;
     let width = Answer::of("bits", "Bits per turn", bits.into(), 2, "bits");
-    let width = match exact {
-        true => width,
-        false => width.note(format!(
-            "the next width above: {bits} bits have {} counts",
-            super::quantity::rounded((1u64 << bits) as f64, 15)
+    let all = rounded(codes, 15);
+    let width = match apart {
+        0.0 => width,
+        apart if apart <= rounding => width.note(format!("{all} counts, as it was rounded")),
+        _ => width.note(format!(
+            "the next width above: {bits} bits have {all} counts"
         )),
     };
     let within = accuracy / step;

@@ -9,7 +9,7 @@ use crate::{
     explain::grouped,
     format::{
         Format, biss_c,
-        timing::{Beyond, MICROSECOND, Timing},
+        timing::{Beyond, MICROSECOND, Positions, Timing},
     },
     layout::{Resolved, Shape},
     profile::Profile,
@@ -229,7 +229,7 @@ fn shift(line: &Line) -> [Answer; 4] {
         _ => (
             Tone::Bad,
             "wrong bits",
-            "each bit comes when the next one is read",
+            "each bit comes when the next one is read, by a controller that reads half a period behind the edge, as in the article",
         ),
     };
     let highest = |name, title: &str, degrees: f64| match line.delay {
@@ -333,9 +333,9 @@ fn window(line: &Line) -> [Answer; 3] {
         ),
         asked if asked < f64::from(timing.slowest) => (
             Tone::Warn,
-            "not by the manual",
+            "below the manual's range",
             format!(
-                "below its {}, though the period is below the time-out",
+                "it begins at {}; by the time-out alone the clock would do",
                 hertz(f64::from(timing.slowest))
             ),
         ),
@@ -401,18 +401,28 @@ fn cycle(line: &Line, bits: f64) -> [Answer; 5] {
         .note("1 / (reading + pause), as fast as it goes");
     let positions = "New positions a second";
     let fresh = match timing.positions {
-        None => Answer::said("positions", positions, "every reading")
+        Positions::Unsaid => Answer::said("positions", positions, "every reading")
             .note("the article names no limit of the encoder"),
-        Some(own) if rate > f64::from(own) => Answer::of("positions", positions, own.into(), 4, "")
-            .note(format!(
-                "the encoder is the limit: it takes {} a second, and some are read twice",
+        Positions::MoreThan(own) if rate > f64::from(own) => Answer::said(
+            "positions",
+            positions,
+            format!("more than {}", grouped(own.into())),
+        )
+        .note("the manual promises that and names no limit"),
+        Positions::Of(own) if rate > f64::from(own) => {
+            Answer::of("positions", positions, own.into(), 4, "")
+                .note(format!(
+                    "the encoder is the limit: it takes {} a second, and some are read twice",
+                    grouped(own.into())
+                ))
+                .tone(Tone::Warn)
+        }
+        Positions::Of(own) | Positions::MoreThan(own) => {
+            Answer::of("positions", positions, rate, 4, "").note(format!(
+                "the line is the limit: the encoder takes {} a second",
                 grouped(own.into())
             ))
-            .tone(Tone::Warn),
-        Some(own) => Answer::of("positions", positions, rate, 4, "").note(format!(
-            "the line is the limit: the encoder takes {} a second",
-            grouped(own.into())
-        )),
+        }
     };
     [
         Answer::of("clocks", "Falling edges", clocks, 4, "").note(why),

@@ -23,7 +23,7 @@
 
 use super::{
     Format, Limits, Link, STATUS, Spec, said,
-    timing::{Beyond, MICROSECOND, Timing, Words},
+    timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
 use crate::{
     bits::Bits,
@@ -78,7 +78,7 @@ pub const TIMING: Timing = Timing {
     pause_text: "t_P = 20 µs",
     words: Words::Once,
     // MPP and PT, characteristics: update frequency.
-    positions: Some(50_000),
+    positions: Positions::Of(50_000),
 };
 
 /// Clocks at whose falling edges the line is still idle: the encoder pulls it low at the second

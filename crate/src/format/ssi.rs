@@ -22,7 +22,7 @@
 
 use super::{
     Format, HEALTH, Limits, Link, Spec, said,
-    timing::{Beyond, MICROSECOND, NANOSECOND, Timing, Words},
+    timing::{Beyond, MICROSECOND, NANOSECOND, Positions, Timing, Words},
 };
 use crate::{
     bits::Bits,
@@ -66,7 +66,7 @@ pub const TIMING: Timing = Timing {
     pause_text: "t_P = 20 µs",
     words: Words::Once,
     // MPP and PT, characteristics: update frequency.
-    positions: Some(50_000),
+    positions: Positions::Of(50_000),
 };
 
 layout! {

@@ -23,7 +23,7 @@
 use super::{
     Format, Limits, Link, Spec, said,
     ssi::{AFTER, BEFORE},
-    timing::{Beyond, MICROSECOND, Timing, Words},
+    timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
 use crate::{
     check::Checksum,
@@ -66,8 +66,8 @@ pub const TIMING: Timing = Timing {
     pause: 21 * MICROSECOND,
     pause_text: "T_mu = 20 ± 1 µs, which the gap must exceed",
     words: Words::Once,
-    // IP-75, table 1: more than that.
-    positions: Some(10_000),
+    // IP-75, table 1.
+    positions: Positions::MoreThan(10_000),
 };
 
 /// Width of the position field, PD.

@@ -25,7 +25,7 @@
 use super::{
     Format, Limits, Link, Spec, said,
     ssi::{AFTER, BEFORE, shapes as plain_shapes, with_spare},
-    timing::{Beyond, MICROSECOND, Timing, Words},
+    timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
 use crate::{
     bits::Bits,
@@ -69,9 +69,9 @@ pub const SPEC: Spec = Spec {
     },
 };
 
-/// Clock and pause (P+F article, figure 2, and "0.1…1.5 Mbit/s").
+/// Clock and pause (P+F article, figure 2; table 6, "0.1…1.5 Mbit/s").
 pub const TIMING: Timing = Timing {
-    source: "P+F article, figure 2",
+    source: "P+F article, figure 2 and table 6",
     slowest: 100_000,
     fastest: 1_500_000,
     beyond: Beyond::Never,
@@ -82,7 +82,7 @@ pub const TIMING: Timing = Timing {
     pause_text: "t_m = 20 ± 10 µs, which the pause must exceed",
     words: Words::Ring,
     // The article names none.
-    positions: None,
+    positions: Positions::Unsaid,
 };
 
 /// Columns to the left of the axis.

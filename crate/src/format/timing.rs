@@ -35,6 +35,17 @@ pub enum Words {
     Ring,
 }
 
+/// How many new positions an encoder takes in a second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Positions {
+    /// The manual does not say.
+    Unsaid,
+    /// So many.
+    Of(u32),
+    /// More than so many.
+    MoreThan(u32),
+}
+
 /// Clock and pause of a format. Times are in picoseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timing {
@@ -58,8 +69,8 @@ pub struct Timing {
     pub pause_text: &'static str,
     /// What more clocks than a word has bring.
     pub words: Words,
-    /// How many new positions the encoder takes in a second, where its manual says so.
-    pub positions: Option<u32>,
+    /// How many new positions the encoder takes in a second.
+    pub positions: Positions,
 }
 
 impl Timing {

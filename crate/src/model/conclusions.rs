@@ -171,9 +171,16 @@ impl Model {
             } else {
                 5
             };
+            let number = |place| self.token(place).map_or(0, |token| token.number);
+            let (inner, outer) = (number(Place::Rotor), number(Place::Stator));
+            let advice = match inner.is_multiple_of(step) && outer > inner {
+                true => format!(
+                    "The manual speaks of models for every {step} mm, so it may still be made: ask."
+                ),
+                false => "Look at the label again.".to_string(),
+            };
             notes.push(format!(
-                "The size table of {name} has no {name}-{rotor}-{stator}. The manual speaks of \
-                 models for every {step} mm, so it may still be made: ask."
+                "The size table of {name} has no {name}-{rotor}-{stator}. {advice}"
             ));
         }
         if self.series.is_none() {

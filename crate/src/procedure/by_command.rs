@@ -37,7 +37,7 @@ pub(super) fn rs485(interface: Interface) -> Zero {
 }
 
 pub(super) fn t485() -> Zero {
-    let source = "MPP and PT, T485, notes 3 and 4";
+    let source = "MPP, T485, notes 3 and 4; PT, T485, note 3";
     let profile = Format::T485.default_profile();
     let row = "Ten in a row: another request between them starts over.";
     let angle = Procedure {

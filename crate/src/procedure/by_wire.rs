@@ -19,9 +19,13 @@ pub(super) fn ip75(interface: Interface) -> Zero {
             false => angle.into(),
         }
     };
+    let silence = match interface {
+        Interface::Ssi7 => "no word can be read",
+        _ => "the stream stops",
+    };
     let steps = |wire: &str, sign: String| {
         [
-            Step::by_hand("Switch the supply off.", "the stream stops", SOURCE),
+            Step::by_hand("Switch the supply off.", silence, SOURCE),
             Step::by_hand(
                 format!("Join {wire} with 0 V (black)."),
                 "nothing yet: the input acts at power-on",

@@ -76,7 +76,10 @@ fn interface(setup: Setup) -> Vec<Advice> {
         };
         said.push((
             "swap",
-            "MPP and PT, table of pins; Wikipedia, RS-485, \"Signals\"",
+            match setup.series {
+                Series::Ip75 => "IP-75, table 2; Wikipedia, RS-485, \"Signals\"",
+                _ => "MPP and PT, table of pins; Wikipedia, RS-485, \"Signals\"",
+            },
             format!(
                 "Makers of adapters do not agree which of A and B is plus. {plus}. If nothing \
                  comes, or only nonsense, swap the two wires."
@@ -140,7 +143,7 @@ fn interface(setup: Setup) -> Vec<Advice> {
     if setup.adapter == Adapter::Apci1710 {
         said.push((
             "board",
-            "P+F article, table 3 and figure 5",
+            "P+F article, table 3 and figure 5; Linux, comedi",
             "x is the number of the module, 0…3. The clock is common to three encoders, whose \
              data go to Bx (DATA 1), Cx (DATA 2) and Dx (DATA 3). Table 3 names no ground; join \
              the board's with the 0 V of the supply. The shift registers hold 32 bits: longer \
@@ -171,14 +174,20 @@ fn rate(setup: Setup) -> Option<String> {
         let names = CHIPS.iter().filter(|chip| wanted(chip.made(baud)));
         names.map(|chip| chip.name).collect::<Vec<_>>().join(", ")
     };
-    let able = chips(|made| matches!(made, Made::Rate(_)));
+    let able = chips(|made| matches!(made, Made::Rate(_) | Made::Listed));
     let not = chips(|made| matches!(made, Made::Not(_)));
     let not = match not.is_empty() {
         true => String::new(),
         false => format!(" {not} cannot, and their drivers do not say so."),
     };
+    let option = match setup.interface {
+        Interface::Rs485 | Interface::Rs422 => {
+            " With option A in the order code it is 115 200 baud, which all of them make."
+        }
+        _ => "",
+    };
     Some(format!(
-        "The adapter must make {} baud: {able} do.{not} Others: measure.",
+        "The adapter must make {} baud: {able} do.{not} Others: measure.{option}",
         grouped(baud.into())
     ))
 }

@@ -51,7 +51,7 @@ pub fn svg(wiring: &Wiring) -> String {
     let last = rows.last().map_or(TOP, |row| row.y);
     let height = last
         + match wiring.shield {
-            Shield::AtController => 66.0,
+            Shield::AtController | Shield::Depends => 66.0,
             Shield::Unsaid => 34.0,
         };
     let (width, height) = (number(WIDTH), number(height));
@@ -248,6 +248,10 @@ fn shield(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
     ];
     ink.path(&round, "w-dim", 1.2, " stroke-dasharray=\"5 4\"");
     let (x, y) = (OTHER.0 - 10.0, bottom + 20.0);
+    if wiring.shield == Shield::Depends {
+        ink.text((left, y + 6.0), "w-dim", 11, "", "shield: see the notes");
+        return;
+    }
     let lead = [(right, bottom - 8.0), (x, bottom - 8.0), (x, y)];
     ink.path(&lead, "w-dim", 1.2, " stroke-dasharray=\"5 4\"");
     for (half, down) in [(9.0, 0.0), (6.0, 4.0), (3.0, 8.0)] {
@@ -259,7 +263,7 @@ fn shield(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
         );
     }
     ink.text((left, y + 6.0), "w-dim", 11, "", "shield");
-    ink.text((x + 16.0, y + 6.0), "w-dim", 11, "", "ground here only");
+    ink.text((x + 16.0, y + 6.0), "w-dim", 11, "", "ground here");
 }
 
 fn resistors(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {

@@ -261,8 +261,9 @@ impl Adapter {
 
 pub(super) const fn shield(series: Series) -> Shield {
     match series {
+        Series::Mpp | Series::Pt => Shield::AtController,
         Series::Ip75 => Shield::Unsaid,
-        _ => Shield::AtController,
+        Series::Avs58 | Series::Avm58 | Series::Ass58 | Series::Asm58 => Shield::Depends,
     }
 }
 

@@ -4,7 +4,8 @@ use super::{Adapter, Setup};
 use crate::product::{Interface, Series};
 use alloc::vec::Vec;
 
-/// What a terminator has, in ohms: the impedance of a twisted pair (P+F article, figure 4).
+/// What a terminator usually has, in ohms: the impedance of a twisted pair (P+F article, figure 4,
+/// of the encoder's Clock; MPP and PT name no value).
 pub const OHMS: u32 = 120;
 
 /// An end of a cable.
@@ -152,12 +153,13 @@ const fn shared(series: Series, between: Pair, source: &'static str) -> Terminat
     let text = match series {
         Series::Pt => {
             "inside the encoder, says PT; MPP, the same electronics, says only that both ends \
-             must be terminated. With the power off, 120 Ω between the two wires show it"
+             must be terminated. With the power off and the adapter unplugged, about \
+             120 Ω between the two wires show it"
         }
         _ => {
             "MPP says only that both ends must be terminated; PT, the same electronics, says that \
-             the encoder has one inside. With the power off, 120 Ω between the two wires show \
-             it; add one only where they are not"
+             the encoder has one inside. With the power off and the adapter unplugged, about 120 Ω \
+             between the two wires show it; add one only where they are not"
         }
     };
     at(between, End::Encoder, Presence::Unclear, text, source)

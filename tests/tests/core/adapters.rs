@@ -69,10 +69,28 @@ fn a_rate_that_is_called_made_is_within_what_a_uart_bears() {
             match chip.made(asked) {
                 Made::Rate(rate) => assert!(apart(rate) <= 0.02, "{} {asked}", chip.name),
                 Made::Not(rate) => assert!(apart(rate) > 0.02, "{} {asked}", chip.name),
-                Made::Unknown => {}
+                Made::Listed | Made::Unknown => {}
             }
         }
     }
+}
+
+#[test]
+fn what_a_list_promises_is_not_called_exact() {
+    for name in ["CH340", "CP2104"] {
+        let outcome = at("1900000", "windows");
+        let answer = outcome.answer(name).unwrap();
+        assert_eq!((answer.number, answer.tone), (None, Tone::Good), "{name}");
+        assert!(answer.note.contains("not published"), "{name}");
+    }
+    // The greatest divider of 3 Mbaud is 16 383.875.
+    let slow = at("50", "windows");
+    for name in ["FT232R", "FT232H"] {
+        let answer = slow.answer(name).unwrap();
+        assert_eq!(answer.tone, Tone::Bad, "{name}");
+        assert!((answer.number.unwrap() - 183.1).abs() < 0.1, "{name}");
+    }
+    assert_eq!(at("115.2 kbaud", "linux"), at("115 200", "linux"));
 }
 
 #[test]
@@ -114,6 +132,8 @@ fn a_rate_of_no_uart_gives_a_sentence() {
         ("100 Mbaud", "is more than"),
         ("fast", "\"fast\" is not a number"),
         ("", "is empty"),
+        ("115,200", "write 115200 or use a point"),
+        ("115.2", "is not a whole number"),
         ("9600 m", "\"m\" is none of baud"),
     ] {
         let fault = adapters

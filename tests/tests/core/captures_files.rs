@@ -160,7 +160,7 @@ fn a_master_that_sends_as_many_clocks_as_bits() {
     let found = read(text, "format=ssi-tree");
     assert_eq!(wires(&found), ("SSI CLK", "SSI DATA"));
     let violation = "! clock 25: 25 falling edges for a 25-bit word give 24 bits: send 26 (P+F \
-                     article, figure 2)";
+                     article, figure 2 and table 6)";
     assert_eq!(
         told(&found),
         [

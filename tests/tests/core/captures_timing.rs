@@ -136,7 +136,7 @@ fn clocks_too_few_or_too_many_are_counted() {
     let found = disturbed(&decoder, |wave| wave.extra = -1);
     assert_eq!(
         found[1].violations[0].to_string(),
-        "25 falling edges for a 25-bit word give 24 bits: send 26 (P+F article, figure 2)"
+        "25 falling edges for a 25-bit word give 24 bits: send 26 (P+F article, figure 2 and table 6)"
     );
     // Twice the word is as it should be.
     let found = disturbed(&decoder, |wave| wave.extra = 26);

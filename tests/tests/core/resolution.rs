@@ -38,6 +38,17 @@ fn the_figures_of_the_manuals() {
         mpp.answer("counts-within-accuracy").unwrap().tone,
         Tone::Warn
     );
+    // The figures as they are printed lead back to the width.
+    for (seconds, bits) in [("79.1", 14.0), ("79,1", 14.0), ("0.0772", 24.0)] {
+        let back = of("arc-seconds", seconds);
+        assert_eq!(number(&back, "bits"), bits, "{seconds}");
+        assert!(
+            back.answer("bits")
+                .unwrap()
+                .note
+                .ends_with("as it was rounded")
+        );
+    }
     // P+F: 16 bits are 65 536 values (the article says 32 688).
     assert_eq!(
         of("bits", "16").answer("counts").unwrap().text,
@@ -127,6 +138,9 @@ fn numbers_are_read_as_people_write_them() {
     assert_eq!(hertz("−3"), Ok(-3.0));
     assert!(hertz("5 mHz").is_err());
     assert!(hertz("1.2.3").is_err());
+    assert!(hertz("115,200").unwrap_err().contains("write 115200"));
+    assert!(hertz("1,000,000").is_err());
+    assert_eq!((hertz("0,025"), hertz("1,25")), (Ok(0.025), Ok(1.25)));
     assert_eq!(hertz("2,5e6"), Ok(2.5e6));
     assert_eq!(hertz("1e-3 MHz"), Ok(1e3));
     assert_eq!(parse("20", Measure::Time, "µs"), Ok(20.0));

@@ -178,7 +178,9 @@ fn baud_text(app: App, profile: &Profile) -> (Tone, String) {
                 short(rate)
             ),
         ),
-        Some(Made::Rate(_) | Made::Unknown) | None => (Tone::Good, format!("{asked} baud")),
+        Some(Made::Rate(_) | Made::Listed | Made::Unknown) | None => {
+            (Tone::Good, format!("{asked} baud"))
+        }
     }
 }
 
