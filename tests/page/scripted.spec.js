@@ -10,6 +10,8 @@ const connect = async (page) => {
 const read = async (page, ...described) => {
   await script(page, ...(described.length > 0 ? described : [{}]));
   await connect(page);
+  // Until the port is opened it is the demo that is read.
+  await expect.poll(() => count(page, 'opened')).toBeGreaterThan(0);
   await expectLink(page, 'reading');
 };
 
