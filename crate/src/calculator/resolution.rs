@@ -4,6 +4,7 @@ use super::{
     Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word,
     quantity::{Measure, rounded},
 };
+use crate::bits::codes;
 use alloc::format;
 
 const BITS: Word = Word {
@@ -29,7 +30,7 @@ const LENGTH: Word = Word {
 
 const SECONDS: f64 = 360.0 * 3600.0;
 /// The finest that a format of the manuals can say, and more than any encoder has.
-const MOST: f64 = (1u64 << 48) as f64;
+const MOST: f64 = codes(48) as f64;
 
 pub(super) const RESOLUTION: Calculator = Calculator {
     name: "resolution",
@@ -87,7 +88,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
                 "{value} bits: a width is a whole number up to 48"
             )));
         }
-        "bits" => (1u64 << value as u32) as f64,
+        "bits" => codes(value as u32) as f64,
         "counts" => value,
         _ if value <= 0.0 => return Err(fault("a count of no size does not divide a turn".into())),
         "degrees" => 360.0 / value,
@@ -105,13 +106,13 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
         "bits" | "counts" => 0.0,
         _ => 1e-3,
     };
-    let enough = |bits: &u32| (1u64 << bits) as f64 * (1.0 + rounding) >= counts;
+    let enough = |bits: &u32| codes(*bits) as f64 * (1.0 + rounding) >= counts;
     let bits = (0..=48).find(enough).unwrap_or(48);
-    let codes = (1u64 << bits) as f64;
-    let apart = (codes / counts - 1.0).abs();
+    let all = codes(bits) as f64;
+    let apart = (all / counts - 1.0).abs();
     let step = 360.0 / counts;
     let width = Answer::of("bits", "Bits per turn", bits.into(), 2, "bits");
-    let all = rounded(codes, 15);
+    let all = rounded(all, 15);
     let width = match apart {
         0.0 => width,
         apart if apart <= rounding => width.note(format!("{all} counts, as it was rounded")),
