@@ -248,7 +248,6 @@ impl Resolved {
         words: impl Fn(&Self, &[u8; 2 * WORD]) -> [u64; 2],
     ) -> (usize, bool) {
         let len = self.len / 8;
-        let sound = if self.is_zero_led { 0xff } else { 0 };
         let mut frames = 1;
         let Some(first) = bytes.first_chunk() else {
             return (frames, repeats);
@@ -263,7 +262,7 @@ impl Resolved {
             if let Some(before) = &fast.before {
                 before.judge(now[1], &mut wrong, &mut sum);
             }
-            let late = sound != 0 && now[0] & sound == 0;
+            let late = self.is_zero_led && bits::low_byte(now[0]) == 0;
             let same = now == previous;
             if wrong != 0 || sum != 0 || late || repeats && !same || !follows.holds(next) {
                 break;
