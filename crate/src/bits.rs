@@ -292,6 +292,14 @@ pub const fn raised(value: u64, place: u32) -> u64 {
     value.wrapping_shl(place)
 }
 
+/// `value` as a number whose bit `sign`, a power of two above which nothing stands, counts negative;
+/// 0 leaves it as it is.
+#[must_use]
+#[inline]
+pub(crate) const fn extended(value: u64, sign: u64) -> u64 {
+    (value ^ sign).wrapping_sub(sign)
+}
+
 /// `value` moved up so that its least significant bit stands at `place`.
 #[must_use]
 #[inline]

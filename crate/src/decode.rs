@@ -121,6 +121,8 @@ pub struct Decoder {
     layouts: Vec<Resolved>,
     /// What each first byte says, for byte formats.
     leads: [Lead; 256],
+    /// The one byte that is a request, in formats whose replies do not begin with it.
+    request: Option<u8>,
 }
 
 impl Decoder {
@@ -162,9 +164,12 @@ impl Decoder {
             profile,
             layouts,
             leads: [NO_LEAD; 256],
+            request: None,
         };
         if profile.medium() == Medium::Bytes {
             decoder.leads = core::array::from_fn(|byte| decoder.lead(byte as u8));
+            let alone = (0..=u8::MAX).find(|byte| decoder.is_request(*byte));
+            decoder.request = alone.filter(|_| !decoder.echoes());
         }
         Ok(decoder)
     }

@@ -1,9 +1,8 @@
 //! The evidence for a phase, in bits: what its frames say for and against it.
 
 use crate::{
-    bits::{self, Bits},
-    layout::Resolved,
-    reading::Values,
+    bits,
+    layout::{Glimpse, Resolved},
 };
 
 /// How many frames a phase is judged by.
@@ -26,10 +25,10 @@ pub(super) struct Position {
 
 impl Position {
     pub(super) fn of(layout: &Resolved, frame: &[u8]) -> Option<Self> {
-        Self::from_values(layout, &layout.values(Bits::of_bytes(frame)))
+        Self::of_glimpse(layout, &layout.glimpse(frame))
     }
 
-    fn from_values(layout: &Resolved, values: &Values) -> Option<Self> {
+    fn of_glimpse(layout: &Resolved, values: &Glimpse) -> Option<Self> {
         let profile = &layout.shape.profile;
         let angle = values.angle? as f64 / bits::codes(profile.angle_bits) as f64;
         Some(match values.turns {
@@ -120,7 +119,7 @@ impl<'b> Chain<'b> {
     pub(super) fn add(&mut self, layout: &Resolved, frame: &'b [u8], at: usize, names: i32) {
         let known = self.frames[..self.passes]
             .iter()
-            .any(|(_, other)| *other == frame);
+            .any(|(_, other)| other.last() == frame.last() && *other == frame);
         if known {
             if self.repeats < 3 {
                 self.repeats += 1;
@@ -138,12 +137,12 @@ impl<'b> Chain<'b> {
         }
         self.frames[self.passes] = (at, frame);
         self.passes += 1;
-        let values = layout.values(Bits::of_bytes(frame));
+        let values = layout.glimpse(frame);
         if self.status.is_some() && values.status != self.status {
             self.score += JUMPS;
         }
         self.status = values.status;
-        let Some(position) = Position::from_values(layout, &values) else {
+        let Some(position) = Position::of_glimpse(layout, &values) else {
             return;
         };
         if self.passes <= 2 {
