@@ -261,6 +261,18 @@ pub const fn codes(width: u32) -> u128 {
     1 << if width > 127 { 127 } else { width }
 }
 
+/// 2^`width` as a floating-point number, for widths up to 1023.
+#[must_use]
+#[inline]
+pub(crate) const fn power(width: u32) -> f64 {
+    let exponent = if width > 1023 {
+        2046
+    } else {
+        1023 + width as u64
+    };
+    f64::from_bits(exponent << 52)
+}
+
 /// The bit of `value` at `place`, 0 being the least significant.
 #[must_use]
 pub const fn bit(value: u64, place: u32) -> bool {

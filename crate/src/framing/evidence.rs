@@ -16,6 +16,9 @@ const REPEATS: i32 = 2;
 /// A number that jumps.
 const JUMPS: i32 = -3;
 
+/// The least that a frame can add to a score, whether it passes or fails.
+pub(super) const WORST: i32 = LATE + 2 * JUMPS;
+
 /// Where the shaft is, in turns, and the range after which it wraps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Position {
@@ -30,11 +33,11 @@ impl Position {
 
     fn of_glimpse(layout: &Resolved, values: &Glimpse) -> Option<Self> {
         let profile = &layout.shape.profile;
-        let angle = values.angle? as f64 / bits::codes(profile.angle_bits) as f64;
+        let angle = values.angle? as f64 / bits::power(profile.angle_bits);
         Some(match values.turns {
             Some(turns) => Self {
                 turns: turns as f64 + angle,
-                range: bits::codes(profile.turns_bits) as f64,
+                range: bits::power(profile.turns_bits),
             },
             None => Self {
                 turns: angle,
@@ -115,8 +118,10 @@ impl<'b> Chain<'b> {
             .any(|(visited, _)| *visited == at)
     }
 
-    /// Counts a frame that passes; `names` is what its first byte says for it.
-    pub(super) fn add(&mut self, layout: &Resolved, frame: &'b [u8], at: usize, names: i32) {
+    /// Counts a frame at the start of `bytes` that passes; `names` is what its first byte says
+    /// for it.
+    pub(super) fn add(&mut self, layout: &Resolved, bytes: &'b [u8], at: usize, names: i32) {
+        let frame = bytes.get(..layout.len / 8).unwrap_or_default();
         let known = self.frames[..self.passes]
             .iter()
             .any(|(_, other)| other.last() == frame.last() && *other == frame);
@@ -137,7 +142,7 @@ impl<'b> Chain<'b> {
         }
         self.frames[self.passes] = (at, frame);
         self.passes += 1;
-        let values = layout.glimpse(frame);
+        let values = layout.glimpse(bytes);
         if self.status.is_some() && values.status != self.status {
             self.score += JUMPS;
         }

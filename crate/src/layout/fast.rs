@@ -141,7 +141,19 @@ impl Resolved {
     #[inline(always)]
     pub(crate) fn passes_sieve(&self, bits: Bits<'_>) -> Option<bool> {
         let fast = self.fast.as_deref()?;
-        (bits.len() == self.len).then(|| fast.sieve.holds(Words::of(bits.bytes(), self.len / 8)))
+        (bits.len() == self.len).then(|| fast.sieve.holds(Words::of(bits.bytes())))
+    }
+
+    /// Whether `bytes` begin with a whole frame whose every check holds.
+    #[inline]
+    pub(crate) fn holds_at(&self, bytes: &[u8]) -> bool {
+        let len = self.len / 8;
+        match (self.fast.as_deref(), bytes.first_chunk()) {
+            (Some(fast), Some(chunk)) => fast.sieve.holds(Words::in_chunk(chunk, len)),
+            _ => bytes
+                .get(..len)
+                .is_some_and(|frame| self.holds(Bits::of_bytes(frame))),
+        }
     }
 
     /// Whether a frame that holds does not end as one that is read a byte late: with a zero.
@@ -248,13 +260,20 @@ impl Words {
         }
     }
 
-    /// Those of a frame of `len` bytes.
-    fn of(frame: &[u8], len: usize) -> Self {
-        let mut chunk = [0; 2 * WORD];
-        for (byte, sent) in chunk.iter_mut().zip(frame) {
-            *byte = *sent;
+    /// Those of a frame.
+    fn of(frame: &[u8]) -> Self {
+        let word = |word: &[u8; WORD]| u64::from_le_bytes(*word);
+        match (frame.first_chunk(), frame.last_chunk()) {
+            (Some(head), Some(tail)) => Self {
+                head: word(head),
+                tail: word(tail),
+            },
+            _ => {
+                let unused = WORD.saturating_sub(frame.len()) * 8;
+                let head = bits::placed(bits::word(frame), unused as u32).swap_bytes();
+                Self { head, tail: head }
+            }
         }
-        Self::in_chunk(&chunk, len)
     }
 
     /// Whether the bits of `mask` are the same in two frames of up to `N` bytes.

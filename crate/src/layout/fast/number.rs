@@ -152,14 +152,14 @@ impl Take {
     #[inline]
     fn read(&self, bytes: &[u8]) -> u64 {
         let rest = bytes.get(self.at..).unwrap_or_default();
-        let mut word = [0; WORD];
-        match rest.first_chunk() {
-            Some(whole) => word = *whole,
-            None => word.iter_mut().zip(rest).for_each(|(to, from)| *to = *from),
-        }
+        let word = match rest.first_chunk() {
+            Some(word) => u64::from_be_bytes(*word),
+            // There are fewer bytes than eight.
+            None => bits::placed(bits::word(rest), ((WORD - rest.len()) * 8) as u32),
+        };
         self.worth(match self.order {
-            Order::First => u64::from_be_bytes(word),
-            Order::Last => u64::from_le_bytes(word),
+            Order::First => word,
+            Order::Last => word.swap_bytes(),
         })
     }
 

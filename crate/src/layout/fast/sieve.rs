@@ -60,10 +60,10 @@ impl Sieve {
                 }
             }
         }
-        let words = |bits: &BitString| Words::of(bits.as_bits().bytes(), len);
+        let words = |bits: &BitString| Words::of(bits.as_bits().bytes());
         Self {
             len,
-            own: Words::of(&vec![u8::MAX; len], len),
+            own: Words::of(&vec![u8::MAX; len]),
             mask: words(&mask),
             value: words(&value),
             none,
