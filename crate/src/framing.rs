@@ -258,7 +258,10 @@ impl Framer {
         let mut from = 0;
         loop {
             let mut at = from + self.skipped;
-            if self.held && self.beyond_doubt(decoder, &self.buffer[at..]).is_some() {
+            if self.held && self.skipped == 0 && decoder.profile().format == Format::Asi4 {
+                from = self.hold_text(decoder, at, sink);
+                at = from;
+            } else if self.held && self.beyond_doubt(decoder, &self.buffer[at..]).is_some() {
                 self.flush(from, self.skipped, sink);
                 self.skipped = 0;
                 from = self.hold(decoder, at, sink);

@@ -31,6 +31,15 @@ impl Position {
         Self::of_glimpse(layout, &layout.glimpse(frame))
     }
 
+    /// An angle of an encoder that counts no turns.
+    #[inline]
+    pub(super) fn of_angle(angle: u64, bits: u32) -> Self {
+        Self {
+            turns: angle as f64 / bits::power(bits),
+            range: 1.0,
+        }
+    }
+
     fn of_glimpse(layout: &Resolved, values: &Glimpse) -> Option<Self> {
         let profile = &layout.shape.profile;
         let angle = values.angle? as f64 / bits::power(profile.angle_bits);

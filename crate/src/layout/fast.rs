@@ -6,7 +6,7 @@
 mod number;
 mod sieve;
 
-use super::{Active, Field, Part, Resolved, Role};
+use super::{Active, Coding, Field, Part, Resolved, Role};
 use crate::{
     bits::{self, Bits, Span},
     columns::{Columns, Health},
@@ -176,6 +176,13 @@ impl Resolved {
     /// Adds a run of frames whose checks hold to columns.
     pub(crate) fn columns(&self, run: &[u8], columns: &mut Columns) {
         let len = self.len / 8;
+        if let Some((Coding::Decimal, text)) = self.coded {
+            let angles = columns.grow(run.len() / len).angle;
+            for (angle, line) in angles.iter_mut().zip(run.chunks_exact(len)) {
+                *angle = Bits::of_bytes(line).decimal(text).unwrap_or(0);
+            }
+            return;
+        }
         let Some(fast) = self.fast.as_deref().filter(|fast| fast.angle.exists()) else {
             for frame in run.chunks_exact(len) {
                 columns.push(self.position(Bits::of_bytes(frame)));
