@@ -113,7 +113,7 @@ impl Columns {
         if frames > 0 {
             self.runs.push(Run {
                 start: piece.start,
-                len: (layout.len / 8) as u32,
+                len: layout.bytes() as u32,
                 frames: frames as u32,
             });
         }

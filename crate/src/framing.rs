@@ -47,7 +47,7 @@ impl<'a> Piece<'a> {
     /// The frames of a run, one by one; of any other piece itself.
     pub fn frames(self) -> impl Iterator<Item = Self> + 'a {
         let len = match self.kind {
-            PieceKind::Frame { layout, .. } => layout.len / 8,
+            PieceKind::Frame { layout, .. } => layout.bytes(),
             PieceKind::Skip(_) => self.bytes.len(),
         };
         let starts = (self.start..).step_by(len.max(1));
@@ -67,7 +67,7 @@ impl<'a> Piece<'a> {
                 layout,
                 sure: true,
                 holds: true,
-            } => layout.position(Bits::of_bytes(self.bytes)),
+            } => layout.position(Bits::of_bytes(self.bytes).prefix(layout.len)),
             _ => None,
         }
     }

@@ -71,6 +71,20 @@ impl Follows {
         }
     }
 
+    /// With the same `count` bits, up to 64, as another.
+    pub(super) fn same_bits(other: &[u8], count: usize) -> Self {
+        let first = other.get(..8).unwrap_or(other);
+        let unused = 8usize.saturating_sub(first.len()) * 8;
+        let head = bits::placed(bits::word(first), unused as u32);
+        let mask = !bits::mask(64usize.saturating_sub(count));
+        Self {
+            mask: mask.swap_bytes(),
+            value: (head & mask).swap_bytes(),
+            never_mask: 0,
+            never: 1,
+        }
+    }
+
     /// Whether a frame begins so.
     #[inline(always)]
     pub(crate) const fn holds(self, head: u64) -> bool {

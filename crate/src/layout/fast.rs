@@ -55,25 +55,33 @@ pub(crate) struct Glimpse {
 }
 
 impl Resolved {
-    /// The same layout, prepared to judge and read many frames quickly; text and frames that are
-    /// not a few whole bytes stay as they are.
+    /// The same layout, prepared to judge and read many frames quickly; text, repeated words
+    /// and frames that are longer than sixteen bytes stay as they are.
     #[must_use]
     pub fn sieved(mut self) -> Self {
-        let plain = self.fields().all(|field| self.coding(field).is_none());
+        let plain = self.fields().all(|field| {
+            let once = field.row.role != Role::Repeat;
+            let coding = self.coding(field).map(|(coding, _)| coding);
+            once && field.width <= u64::BITS && coding != Some(Coding::Decimal)
+        });
         let checks: u32 = self
             .fields()
             .filter(|field| Field::is_binding(field))
             .map(|field| field.width)
             .sum();
-        if !plain || !self.len.is_multiple_of(8) || self.len > 16 * WORD || checks > u16::BITS {
+        if !plain || self.len > 16 * WORD || checks > u16::BITS {
             return self;
         }
         let signed = self.shape.profile.turns_code == TurnsCode::Signed;
         let last = |role| self.fields().rfind(|field| field.row.role == role);
         let number = |field: Option<&Field>| {
-            field.map_or_else(Number::default, |field| {
-                Number::of(self.len / 8, self.parts(field))
-            })
+            let Some((field, [first, ..])) = field.map(|field| (field, self.parts(field))) else {
+                return Number::default();
+            };
+            match self.coding(field) {
+                Some((_, word)) => Number::of_gray(self.bytes(), word, *first),
+                None => Number::of(self.bytes(), self.parts(field)),
+            }
         };
         let (turns, status) = (last(Role::Turns), last(Role::Status));
         let (health, health_flip) = self.health();
@@ -90,6 +98,13 @@ impl Resolved {
             health_flip,
         }));
         self
+    }
+
+    /// How many bytes hold a frame.
+    #[must_use]
+    #[inline]
+    pub const fn bytes(&self) -> usize {
+        self.len.div_ceil(8)
     }
 
     /// What [`Health`] holds, as a number, and which of its bits are sent the other way round.
@@ -117,7 +132,7 @@ impl Resolved {
                 _ => parts.push(Part { span, place }),
             }
         }
-        (Number::of(self.len / 8, &parts), flip)
+        (Number::of(self.bytes(), &parts), flip)
     }
 
     /// Where a flag stands, and whether a 1 there says so.
@@ -147,12 +162,12 @@ impl Resolved {
     /// Whether `bytes` begin with a whole frame whose every check holds.
     #[inline]
     pub(crate) fn holds_at(&self, bytes: &[u8]) -> bool {
-        let len = self.len / 8;
+        let len = self.bytes();
         match (self.fast.as_deref(), bytes.first_chunk()) {
             (Some(fast), Some(chunk)) => fast.sieve.holds(Words::in_chunk(chunk, len)),
             _ => bytes
                 .get(..len)
-                .is_some_and(|frame| self.holds(Bits::of_bytes(frame))),
+                .is_some_and(|frame| self.holds(Bits::of_bytes(frame).prefix(self.len))),
         }
     }
 
@@ -175,7 +190,7 @@ impl Resolved {
 
     /// Adds a run of frames whose checks hold to columns.
     pub(crate) fn columns(&self, run: &[u8], columns: &mut Columns) {
-        let len = self.len / 8;
+        let len = self.bytes();
         if let Some((Coding::Decimal, text)) = self.coded {
             let angles = columns.grow(run.len() / len).angle;
             for (angle, line) in angles.iter_mut().zip(run.chunks_exact(len)) {
@@ -185,7 +200,7 @@ impl Resolved {
         }
         let Some(fast) = self.fast.as_deref().filter(|fast| fast.angle.exists()) else {
             for frame in run.chunks_exact(len) {
-                columns.push(self.position(Bits::of_bytes(frame)));
+                columns.push(self.position(Bits::of_bytes(frame).prefix(self.len)));
             }
             return;
         };

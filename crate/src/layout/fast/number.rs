@@ -33,6 +33,8 @@ enum Order {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Number {
     takes: Vec<Take>,
+    /// Where the number stands in the word of a Gray code that the takes read.
+    gray: Option<(u32, u64)>,
 }
 
 impl Number {
@@ -43,6 +45,21 @@ impl Number {
             Some(take) => number.takes.push(take),
             None => parts.iter().for_each(|part| number.add(len, *part)),
         }
+        number
+    }
+
+    /// The number in `part` of a Gray-coded word, in a frame of `len` bytes.
+    pub(super) fn of_gray(len: usize, word: Span, part: Part) -> Self {
+        let mut number = Self::default();
+        let below = word.end() - part.span.end();
+        number.add(
+            len,
+            Part {
+                span: word,
+                place: 0,
+            },
+        );
+        number.gray = Some((below as u32, bits::mask(part.span.len)));
         number
     }
 
@@ -75,7 +92,15 @@ impl Number {
     #[inline]
     pub(super) fn read(&self, bytes: &[u8]) -> u64 {
         let takes = self.takes.iter();
-        takes.fold(0, |sum, take| sum | take.read(bytes))
+        self.decoded(takes.fold(0, |sum, take| sum | take.read(bytes)))
+    }
+
+    #[inline(always)]
+    const fn decoded(&self, bits: u64) -> u64 {
+        match self.gray {
+            None => bits,
+            Some((below, mask)) => bits::above(bits::from_gray(bits), below) & mask,
+        }
     }
 
     /// Puts what the numbers of the frames of `len` bytes in `run` come to into `column`, which
@@ -89,6 +114,7 @@ impl Number {
         column: &mut [T],
         of: impl Fn(u64) -> T,
     ) {
+        let of = |bits| of(self.decoded(bits));
         match &*self.takes {
             [] => {}
             [take] => take.column(run, len, column, |slot, bits| *slot = of(bits)),

@@ -34,7 +34,7 @@ pub(super) struct Sieve {
 
 impl Sieve {
     pub(super) fn of(layout: &Resolved) -> Self {
-        let len = layout.len / 8;
+        let len = layout.bytes();
         let mut mask = BitString::zeros(layout.len);
         let mut value = BitString::zeros(layout.len);
         for field in layout.fields() {
@@ -49,15 +49,15 @@ impl Sieve {
         let none = syndrome(layout, &BitString::zeros(layout.len));
         let mut syndromes = vec![[0; 256]; len.next_multiple_of(GROUP)];
         for (byte, table) in syndromes.iter_mut().enumerate() {
-            for place in 0..8 {
+            let adds: [u16; 8] = core::array::from_fn(|place| {
                 let mut one = BitString::zeros(layout.len);
-                one.flip(byte * 8 + 7 - place as usize);
-                let adds = syndrome(layout, &one) ^ none;
-                for (code, sum) in (0u64..).zip(&mut *table) {
-                    if bits::bit(code, place) {
-                        *sum ^= adds;
-                    }
-                }
+                one.flip(byte * 8 + 7 - place);
+                syndrome(layout, &one) ^ none
+            });
+            for code in 1..table.len() {
+                // What a code adds is what it adds without its lowest bit, and that bit.
+                let (rest, lowest) = (code & (code - 1), code.trailing_zeros());
+                table[code] = table[rest] ^ adds[lowest as usize];
             }
         }
         let words = |bits: &BitString| Words::of(bits.as_bits().bytes());
