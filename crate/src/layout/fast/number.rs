@@ -11,8 +11,8 @@ use alloc::vec::Vec;
 const BATCH: usize = 64;
 
 /// A part of a number: some bits of the eight bytes from one on.
-#[derive(Clone, Copy, Debug)]
-struct Take {
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Take {
     /// The first of the bytes, counted in the frame.
     at: usize,
     order: Order,
@@ -23,8 +23,9 @@ struct Take {
 }
 
 /// Which of the bytes is the most significant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Order {
+    #[default]
     First,
     Last,
 }
@@ -82,6 +83,17 @@ impl Number {
 
     pub(super) const fn exists(&self) -> bool {
         !self.takes.is_empty()
+    }
+
+    /// All there is to the number, where its bits stand side by side in the first eight bytes.
+    pub(super) fn alone(&self) -> Option<Take> {
+        match &*self.takes {
+            [] => Some(Take::default()),
+            [take] if self.gray.is_none() && take.at == 0 && take.order == Order::First => {
+                Some(*take)
+            }
+            _ => None,
+        }
     }
 
     /// The number in the frame at the start of `bytes`, where it exists.
@@ -178,18 +190,15 @@ impl Take {
     #[inline]
     fn read(&self, bytes: &[u8]) -> u64 {
         let rest = bytes.get(self.at..).unwrap_or_default();
-        let word = match rest.first_chunk() {
-            Some(word) => *word,
-            None => filled_up(rest),
-        };
         self.worth(match self.order {
-            Order::First => u64::from_be_bytes(word),
-            Order::Last => u64::from_le_bytes(word),
+            Order::First => u64::from_be_bytes(eight(rest)),
+            Order::Last => u64::from_le_bytes(eight(rest)),
         })
     }
 
+    /// What the part is worth in its eight bytes, of which the first is the most significant.
     #[inline(always)]
-    const fn worth(&self, word: u64) -> u64 {
+    pub(super) const fn worth(&self, word: u64) -> u64 {
         bits::turned(word, self.turn) & self.mask
     }
 
@@ -213,13 +222,18 @@ impl Take {
     ) {
         let mut rest = run.get(self.at..).unwrap_or_default();
         for slot in column {
-            let bytes = match rest.first_chunk() {
-                Some(bytes) => *bytes,
-                None => filled_up(rest),
-            };
-            put(slot, self.worth(word(bytes)));
+            put(slot, self.worth(word(eight(rest))));
             rest = rest.get(len..).unwrap_or_default();
         }
+    }
+}
+
+/// The first eight bytes, or all there are and zeros behind them.
+#[inline(always)]
+pub(super) fn eight(bytes: &[u8]) -> [u8; WORD] {
+    match bytes.first_chunk() {
+        Some(word) => *word,
+        None => filled_up(bytes),
     }
 }
 
