@@ -14,6 +14,8 @@ use encoderscope::{
 pub const CHUNK: usize = 65_536;
 /// One byte in so many is changed, lost or doubled in a noisy stream.
 const NOISE: u64 = 100;
+/// Frames of the way of the shaft, a hundred turns.
+const FRAMES: u32 = 270_000;
 
 /// Frames of one profile, in one writing.
 #[derive(Clone, Copy, Debug)]
@@ -98,6 +100,15 @@ pub const WORKLOADS: [Workload; 6] = [
     },
 ];
 
+/// Input of growing length: a name, and how many times as long as usual it is.
+pub const GROWTH: [(&str, f64); 5] = [
+    ("1-64", 1.0 / 64.0),
+    ("1-16", 1.0 / 16.0),
+    ("1-4", 0.25),
+    ("1", 1.0),
+    ("4", 4.0),
+];
+
 impl Workload {
     /// A decoder of its frames.
     #[must_use]
@@ -105,28 +116,17 @@ impl Workload {
         decoder(self.parameters)
     }
 
-    /// About `bytes` of a shaft that turns through many turns, in whole frames, and what was
-    /// encoded; more of it begins with the same bytes.
+    /// At most `bytes` of a shaft that goes the same way again and again, in whole frames, and
+    /// what was encoded; more of it begins with the same bytes.
     #[must_use]
     pub fn input(&self, bytes: usize) -> (Vec<u8>, Sums) {
-        let decoder = self.decoder();
-        let profile = decoder.profile();
+        let frames = self.frames();
         let mut out = Vec::with_capacity(bytes);
         let mut sums = Sums::default();
         let mut noise = Noise::new(1);
-        for index in 0u64.. {
-            // The turns do not fit a byte: no frame begins with a zero.
-            let position = 300.3 + index as f64 * 0.000_37;
-            let angle = (position.fract() * 2f64.powi(profile.angle_bits as i32)) as u64;
-            let frame = decoder.encode(&Values {
-                turns: Some(position as i64 % 65_536),
-                angle: Some(angle),
-                error: Some(false),
-                valid: Some(true),
-                ..Values::default()
-            });
+        for (frame, angle) in frames.iter().cycle() {
             let before = out.len();
-            self.write(&frame.into_bytes(), &mut noise, &mut out);
+            self.write(frame, &mut noise, &mut out);
             if out.len() > bytes {
                 out.truncate(before);
                 break;
@@ -135,6 +135,26 @@ impl Workload {
             sums.angles += angle;
         }
         (out, sums)
+    }
+
+    /// The frames of a stretch of the way, and the angle that each says.
+    fn frames(&self) -> Vec<(Vec<u8>, u64)> {
+        let decoder = self.decoder();
+        let counts = 2f64.powi(decoder.profile().angle_bits as i32);
+        let frame = |index| {
+            // The turns do not fit a byte: no frame begins with a zero.
+            let position = 300.3 + f64::from(index) * 0.000_37;
+            let angle = (position.fract() * counts) as u64;
+            let frame = decoder.encode(&Values {
+                turns: Some(position as i64),
+                angle: Some(angle),
+                error: Some(false),
+                valid: Some(true),
+                ..Values::default()
+            });
+            (frame.into_bytes(), angle)
+        };
+        (0..FRAMES).map(frame).collect()
     }
 
     fn write(&self, frame: &[u8], noise: &mut Noise, out: &mut Vec<u8>) {
@@ -157,6 +177,16 @@ impl Workload {
                 }
                 out.push(b'\n');
             }
+        }
+    }
+
+    /// Whether `read` is what `made` frames should give: where bytes are bad, most frames; else
+    /// each of them.
+    #[must_use]
+    pub fn admits(&self, made: Sums, read: Sums) -> bool {
+        match self.writing {
+            Writing::Noise => (made.frames * 3 / 4..=made.frames).contains(&read.frames),
+            Writing::Stream | Writing::Words | Writing::Text => read == made,
         }
     }
 
