@@ -59,7 +59,7 @@ const fn stream(name: &'static str, parameters: &'static str, writing: Writing) 
 pub(crate) fn run() {
     let mut criterion = Criterion::default()
         .sample_size(10)
-        .nresamples(1_000)
+        .nresamples(2_000)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(3))
         .without_plots()
