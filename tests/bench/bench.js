@@ -28,7 +28,7 @@ const FOLDER = `target/bench/${megabytes}`;
 const KAITAI = 'target/bench/kaitai';
 /** Which of the peers in the browser read which workload. */
 const PEERS = {
-  period: ['idiomatic', 'tuned', 'kaitai', 'taken', 'sum'],
+  period: ['idiomatic', 'tuned', 'kaitai', 'kaitai-file', 'taken', 'sum'],
   t485: ['idiomatic', 'kaitai'],
   asi1: ['idiomatic', 'kaitai'],
   'asi1-noise': ['idiomatic'],
@@ -81,6 +81,7 @@ async function compileKaitai() {
 /** A page that runs tasks in workers. */
 async function open() {
   const server = spawn('node', ['tests/package/server.js', String(PORT), '.'], { stdio: 'inherit' });
+  process.once('exit', () => server.kill());
   const browser = await chromium.launch(page.use.launchOptions);
   const tab = await browser.newPage({ baseURL: ORIGIN });
   for (let tries = 0; ; tries += 1) {

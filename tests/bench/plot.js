@@ -11,10 +11,9 @@ const STYLE = `
   svg { color-scheme: light dark; font: 13px sans-serif; }
   text { fill: #222; } .rule { stroke: #d0d4da; } .native { stroke: #0b62c4; fill: #0b62c4; }
   .wasm { stroke: #b34700; fill: #b34700; } .line { fill: none; stroke-width: 2; } .ground { fill: #fff; }
-  text.native, text.wasm { stroke: none; }
   @media (prefers-color-scheme: dark) {
     text { fill: #ddd; } .rule { stroke: #3a4048; } .native { stroke: #6cb0ff; fill: #6cb0ff; }
-    .wasm { stroke: #ff9f57; fill: #ff9f57; } .line { fill: none; } .ground { fill: #16191d; }
+    .wasm { stroke: #ff9f57; fill: #ff9f57; } .ground { fill: #16191d; }
   }
 `;
 

@@ -18,9 +18,9 @@ fi
 if $at/bin/python -c 'import construct' 2>/dev/null; then export BENCH_PYTHON=$at/bin/python; fi
 
 say "making the input"
-cargo build -q --release -p encoderscope-tests --bin bench-data
 megabytes=${BENCH_MEGABYTES:-64}
-target/release/bench-data "target/bench/$megabytes" "$megabytes"
+cargo run -q --release -p encoderscope-tests --bin bench-data -- \
+  "target/bench/$megabytes" "$megabytes"
 
 say "measuring"
 node tests/bench/bench.js "$@"

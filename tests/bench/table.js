@@ -11,6 +11,8 @@ const COLUMNS = [
   ['limit-memcpy', 'memcpy'],
 ];
 
+const TITLES = Object.fromEntries(COLUMNS);
+
 /** A number in about two digits, and no exponent. */
 export function short(value) {
   if (value >= 10) return value.toFixed(0);
@@ -51,6 +53,7 @@ export function sentences({ rates, stray, growth }) {
   };
   return [
     `- WASM hands the readings of \`period\` over to JavaScript, as typed arrays, at ${short(period.taken / 1e9)} GB/s of input (${short(period.taken / period.wasm)} of leaving them in its columns); JavaScript adds bytes up at ${short(period.sum / 1e9)} GB/s.`,
+    `- Kaitai Struct that parses the file of \`period\` at once, not in chunks of 64 kB, reads ${short(period['kaitai-file'] / 1e9)} GB/s.`,
     `- In noise the loop in JavaScript takes ${stray.loop} frames for good, the core ${stray.core}.`,
     `- A byte of \`period\` takes ${spread(0)} natively and ${spread(1)} in WASM, whatever the length.`,
   ];
@@ -60,15 +63,22 @@ export function sentences({ rates, stray, growth }) {
 export function targets({ rates }) {
   const { period } = rates;
   const aim = (what, value, least) => `| ${what} | ${short(least)} | ${short(value)} | ${value >= least ? 'met' : 'missed'} |`;
-  const slowest = Object.entries(rates).filter(([name]) => name !== 'period');
+  const beside = ['wasm', 'native'].flatMap((side) => {
+    const to = (what, other, least) => aim(`\`period\`, ${TITLES[side]} to ${what}`, period[side] / period[other], least);
+    return [
+      to('idiomatic JS', 'idiomatic', 10),
+      to('tuned JS', 'tuned', 1),
+      to('Kaitai', 'kaitai', 20),
+      to('Kaitai, whole file', 'kaitai-file', 20),
+    ];
+  });
+  const others = Object.entries(rates).filter(([name]) => name !== 'period');
   return [
     '| aim | at least | measured | |',
     '|---|--:|--:|---|',
-    aim('`period` native, GB/s', period.native / 1e9, 1),
+    aim('`period`, native, GB/s', period.native / 1e9, 1),
     aim('`period`, WASM to native', period.wasm / period.native, 0.4),
-    aim('`period`, WASM to idiomatic JS', period.wasm / period.idiomatic, 10),
-    aim('`period`, WASM to tuned JS', period.wasm / period.tuned, 1),
-    aim('`period`, WASM to Kaitai', period.wasm / period.kaitai, 20),
-    ...slowest.map(([name, each]) => aim(`\`${name}\` native, to \`period\``, each.native / period.native, 1 / 3)),
+    ...beside,
+    ...others.map(([name, each]) => aim(`\`${name}\`, native, to \`period\``, each.native / period.native, 1 / 3)),
   ];
 }

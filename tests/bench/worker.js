@@ -3,8 +3,10 @@
 import init, { ColumnReader } from '/web/pkg/encoderscope.js';
 
 const CHUNK = 65_536;
-/** Chunks of whole frames, for those that join nothing. */
+/** Bytes of a frame, for those that join nothing and get chunks of whole frames. */
 const WHOLE = { period: 7, t485: 11, asi1: 6, 'biss-c': 8 };
+const wholeFrames = (frame) => CHUNK - (CHUNK % frame);
+const STEPS = { tuned: wholeFrames, kaitai: wholeFrames, 'kaitai-file': (_, length) => length };
 
 /** Each gives a function that opens a decoder for one pass. */
 const sides = {
@@ -32,12 +34,17 @@ const sides = {
     const { open } = await import('./peers/tuned.js');
     return open;
   },
-  kaitai: async ({ workload, kaitai }) => {
-    const { open } = await import('./peers/kaitai.js');
-    const decoder = await open(workload, kaitai);
-    return () => decoder;
-  },
+  kaitai,
+  /** The whole file at once. */
+  'kaitai-file': kaitai,
+  sum: async () => () => adding,
 };
+
+async function kaitai({ workload, kaitai }) {
+  const { open } = await import('./peers/kaitai.js');
+  const decoder = await open(workload, kaitai);
+  return () => decoder;
+}
 
 const added = (numbers) => numbers.reduce((sum, each) => sum + each, 0);
 
@@ -58,8 +65,7 @@ function columns(reader, count) {
 async function chunks({ url, side, workload, text }) {
   const bytes = new Uint8Array(await (await fetch(url)).arrayBuffer());
   const input = text ? new TextDecoder().decode(bytes) : bytes;
-  const joins = !['tuned', 'kaitai'].includes(side);
-  const step = joins ? CHUNK : CHUNK - (CHUNK % WHOLE[workload]);
+  const step = STEPS[side]?.(WHOLE[workload], input.length) ?? CHUNK;
   const cut = (at) => (text ? input.slice(at, at + step) : input.subarray(at, at + step));
   return Array.from({ length: Math.ceil(input.length / step) }, (_, index) => cut(index * step));
 }
@@ -108,21 +114,19 @@ function fastest(open, input, { frames }, least) {
 }
 
 /** What adding up the bytes takes. */
-function adding(input) {
-  let sum = 0;
-  return () => ({
-    push: (chunk) => {
-      for (let at = 0; at < chunk.length; at += 1) sum = (sum + chunk[at]) | 0;
-      return sum & 0;
-    },
-    angles: () => 0,
-  });
-}
+const adding = {
+  push: (chunk) => {
+    let sum = 0;
+    for (let at = 0; at < chunk.length; at += 1) sum = (sum + chunk[at]) | 0;
+    return sum;
+  },
+  angles: () => 0,
+};
 
 self.onmessage = async ({ data: task }) => {
   try {
     const input = await chunks(task);
-    const open = task.side === 'sum' ? adding(input) : await sides[task.side](task);
+    const open = await sides[task.side](task);
     const found = sums(open, input);
     self.postMessage({ ...found, seconds: fastest(open, input, found, task.seconds) });
   } catch (error) {
