@@ -4,10 +4,13 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 source web/toolchain.sh
 
-say "building the core and the page"
-wasm_cargo build --profile wasm -p encoderscope-web --bin page --bin module
+say "building the core"
+wasm_cargo build --profile wasm -p encoderscope-web --bin module
+say "building the page"
+# What is split off is found by the relocations.
+wasm_cargo rustc --profile small -p encoderscope-web --bin page -- -Clink-args=--emit-relocs
 say "building the custom element"
-wasm_cargo build --profile element -p encoderscope-web --bin element --no-default-features --features element
+wasm_cargo build --profile small -p encoderscope-web --bin element --no-default-features --features element
 
 # What rustc and wasm-bindgen emit; more would shut browsers out.
 features=(--enable-bulk-memory --enable-multivalue --enable-mutable-globals
@@ -21,10 +24,23 @@ bind() {
   npx wasm-opt "${features[@]}" "${@:3}" "web/pkg/new/$2_bg.wasm" -o "web/pkg/new/$2_bg.wasm"
   mv web/pkg/new/* web/pkg
 }
+# The page: its first WASM file, and one for each part that comes when it is wanted.
+bind_page() {
+  local from=$wasm_target_dir/$wasm_target/small/page.wasm to=web/pkg/page new=web/pkg/new/page file
+  [ "$to/page_bg.wasm" -nt "$from" ] && return
+  rm -rf $to $new && mkdir -p $new
+  wasm-split-cli "$from" $new --target web --out-name page
+  wasm-bindgen --target web --no-typescript --keep-lld-exports --out-dir $new --out-name page $new/page.wasm
+  rm $new/page.wasm
+  for file in $new/*.wasm; do
+    npx wasm-opt "${features[@]}" -Oz "$file" -o "$file"
+  done
+  mv $new $to
+}
 mkdir -p web/pkg
-bind wasm/page page -O3
+bind_page
 bind wasm/module encoderscope -O3
-bind element/element encoder-frame -Oz --converge
+bind small/element encoder-frame -Oz --converge
 
 # Whether one of the paths is newer than the file, or there is no such file.
 outdated() { # file, paths
@@ -36,7 +52,7 @@ brotli() {
   node -e 'process.stdout.write(String(require("zlib").brotliCompressSync(require("fs").readFileSync(process.argv[1])).length))' "$1"
 }
 
-sources=(package-lock.json web/pkg/*.js web/pkg/*.wasm web/js web/public web/style)
+sources=(package-lock.json web/pkg/*.js web/pkg/*.wasm web/pkg/page web/js web/public web/style)
 npm=web/pkg/npm
 if outdated $npm/encoder-frame.js web/modules.config.js "${sources[@]}"; then
   say "bundling the modules"
