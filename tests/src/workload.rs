@@ -7,7 +7,7 @@ use encoderscope::{
     decode::{Decoded, Decoder, Pass},
     dump::Reader,
     framing::Framer,
-    reading::{Reading, Values},
+    reading::Values,
 };
 
 /// What a serial port delivers at once, in bytes.
@@ -218,7 +218,7 @@ fn words(decoder: &Decoder, input: &[u8], sink: &mut dyn FnMut(&Columns)) {
     for chunk in input.chunks(CHUNK / word * word) {
         for word in chunk.chunks_exact(word) {
             if let Ok(frame) = decoder.line(Bits::of_bytes(word)) {
-                push(&mut columns, frame.reading());
+                columns.push(frame.reading());
             }
         }
         sink(&columns);
@@ -237,16 +237,8 @@ fn text(decoder: &Decoder, input: &[u8], sink: &mut dyn FnMut(&Columns)) {
     let mut pass = Pass::new();
     pass.finish(decoder, &dump, &mut |decoded| {
         if let Decoded::Frame(frame) = decoded {
-            push(&mut columns, frame.reading());
+            columns.push(frame.reading());
         }
     });
     sink(&columns);
-}
-
-fn push(columns: &mut Columns, reading: Option<Reading>) {
-    if let Some(reading) = reading {
-        columns.angle.push(reading.angle);
-        columns.turns.push(reading.turns.unwrap_or(0));
-        columns.status.push(reading.status.unwrap_or(0));
-    }
 }
