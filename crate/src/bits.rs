@@ -297,11 +297,12 @@ pub const fn above(value: u64, place: u32) -> u64 {
     value.wrapping_shr(place)
 }
 
-/// `value` moved up by `place` bits, for places below 64.
+/// `value` turned to the right by `count` bits, or by what is left of them over whole turns: what
+/// leaves it below comes back above.
 #[must_use]
 #[inline]
-pub const fn raised(value: u64, place: u32) -> u64 {
-    value.wrapping_shl(place)
+pub const fn turned(value: u64, count: u32) -> u64 {
+    value.rotate_right(count % 64)
 }
 
 /// `value` as a number whose bit `sign`, a power of two above which nothing stands, counts negative;

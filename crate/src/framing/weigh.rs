@@ -13,6 +13,8 @@ const LEAD: i32 = 6;
 const HELD: i32 = 6;
 /// Dumps tend to begin and end with whole frames.
 const EDGE: i32 = 4;
+/// The longest frame has as many bytes, so that there are fewer other phases.
+const MOST_RIVALS: usize = 32;
 /// A frame that fails.
 const FAILS: i32 = -4;
 
@@ -44,32 +46,35 @@ impl Framer {
         let first = whole
             .filter(|_| passes || self.is_anchored())
             .map(|layout| First { layout, passes });
-        let shifts = 1..decoder.longest().min(rest.len());
-        let is_rival = |shift: &usize| {
-            passing(decoder, &rest[*shift..]).is_some() && !is_late(decoder, rest, *shift)
-        };
-        let Some(nearest) = shifts.clone().find(is_rival) else {
+        let mut rivals = [0; MOST_RIVALS];
+        let mut count = 0;
+        for shift in 1..decoder.longest().min(rest.len()) {
+            let passes = passing(decoder, &rest[shift..]).is_some();
+            if let Some(rival) = rivals.get_mut(count)
+                && passes
+                && !is_late(decoder, rest, shift)
+            {
+                *rival = shift;
+                count += 1;
+            }
+        }
+        let rivals = &rivals[..count];
+        if rivals.is_empty() {
             return match first {
                 Some(first) => self.alone(decoder, rest, first),
                 None => self.nothing(decoder, rest),
             };
-        };
+        }
         let all = Until::Passes(WINDOW);
         let own = first.map(|first| (first, self.own_chain(decoder, rest, all)));
         let visited = |shift| own.as_ref().is_some_and(|(_, own)| own.visits(shift));
-        // Nothing but one phase passes: that it is better than this one is all that matters.
-        let fails = own.as_ref().filter(|(_, own)| own.passes == 0);
-        let until = match fails {
-            Some((_, own)) if !(nearest + 1..shifts.end).any(|shift| is_rival(&shift)) => {
-                Until::Score(own.score + 1)
-            }
+        let until = match (&own, rivals) {
+            // That the only phase that passes is better than this one is all that matters.
+            (Some((_, own)), [_]) if own.passes == 0 => Until::Score(own.score + 1),
             _ => all,
         };
         let mut other: Option<(usize, i32)> = None;
-        for shift in nearest..shifts.end {
-            if visited(shift) || !is_rival(&shift) {
-                continue;
-            }
+        for shift in rivals.iter().copied().filter(|shift| !visited(*shift)) {
             let score = chain(decoder, rest, shift, self.last, until).score;
             if other.is_none_or(|(_, best)| score > best) {
                 other = Some((shift, score));

@@ -15,7 +15,7 @@ use crate::{
     reading::Reading,
 };
 use alloc::{boxed::Box, vec::Vec};
-use number::Number;
+use number::{Number, Take, eight};
 use sieve::Sieve;
 
 /// Bytes of a word.
@@ -44,6 +44,8 @@ pub(super) struct Fast {
     health: Number,
     /// Its bits that are sent the other way round.
     health_flip: u64,
+    /// Angle, turns, status and health where all are read from one word.
+    together: Option<[Take; 4]>,
 }
 
 /// What tells whether one frame goes on from another, good or bad.
@@ -85,15 +87,26 @@ impl Resolved {
         };
         let (turns, status) = (last(Role::Turns), last(Role::Status));
         let (health, health_flip) = self.health();
+        let (angle, turns_number) = (number(last(Role::Angle)), number(turns));
+        let status_number = number(status);
+        let together = || {
+            Some([
+                angle.alone()?,
+                turns_number.alone()?,
+                status_number.alone()?,
+                health.alone()?,
+            ])
+        };
         self.fast = Some(Box::new(Fast {
             sieve: Sieve::of(&self),
-            angle: number(last(Role::Angle)),
+            together: together(),
+            angle,
             sign: turns
                 .filter(|_| signed)
                 .map_or(0, |field| bits::placed(1, field.width.saturating_sub(1))),
-            turns: number(turns),
+            turns: turns_number,
             status_flip: status.map_or(0, |field| field.active_high(0)),
-            status: number(status),
+            status: status_number,
             health,
             health_flip,
         }));
@@ -205,6 +218,20 @@ impl Resolved {
             return;
         };
         let room = columns.grow(run.len() / len);
+        if let Some([angle, turns, status, health]) = fast.together {
+            let mut rest = run;
+            let slots = room.angle.iter_mut().zip(room.turns);
+            let slots = slots.zip(room.status).zip(room.health);
+            for (((to_angle, to_turns), to_status), to_health) in slots {
+                let word = u64::from_be_bytes(eight(rest));
+                *to_angle = angle.worth(word);
+                *to_turns = fast.turns_of(turns.worth(word));
+                *to_status = fast.status_of(status.worth(word));
+                *to_health = fast.health_of(health.worth(word));
+                rest = rest.get(len..).unwrap_or_default();
+            }
+            return;
+        }
         fast.angle.column(run, len, room.angle, |angle| angle);
         fast.turns
             .column(run, len, room.turns, |turns| fast.turns_of(turns));

@@ -11,19 +11,21 @@ use alloc::vec::Vec;
 const BATCH: usize = 64;
 
 /// A part of a number: some bits of the eight bytes from one on.
-#[derive(Clone, Copy, Debug)]
-struct Take {
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Take {
     /// The first of the bytes, counted in the frame.
     at: usize,
     order: Order,
-    below: u32,
+    /// How far the bits are turned to the right to be where they are worth what they are.
+    turn: u32,
+    /// Where they are then.
     mask: u64,
-    place: u32,
 }
 
 /// Which of the bytes is the most significant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Order {
+    #[default]
     First,
     Last,
 }
@@ -81,6 +83,17 @@ impl Number {
 
     pub(super) const fn exists(&self) -> bool {
         !self.takes.is_empty()
+    }
+
+    /// All there is to the number, where its bits stand side by side in the first eight bytes.
+    pub(super) fn alone(&self) -> Option<Take> {
+        match &*self.takes {
+            [] => Some(Take::default()),
+            [take] if self.gray.is_none() && take.at == 0 && take.order == Order::First => {
+                Some(*take)
+            }
+            _ => None,
+        }
     }
 
     /// The number in the frame at the start of `bytes`, where it exists.
@@ -141,12 +154,12 @@ impl Take {
     fn of(len: usize, span: Span, place: u32) -> Self {
         // Where the frame has eight bytes, those read are its own.
         let at = (span.start / 8).min(len.saturating_sub(WORD));
+        let below = ((at + WORD) * 8 - span.end()) as u32;
         Self {
             at,
             order: Order::First,
-            below: ((at + WORD) * 8 - span.end()) as u32,
-            mask: bits::mask(span.len),
-            place,
+            turn: below.wrapping_sub(place),
+            mask: bits::placed(bits::mask(span.len), place),
         }
     }
 
@@ -168,9 +181,8 @@ impl Take {
         parts.iter().all(fits).then(|| Self {
             at,
             order: Order::Last,
-            below: below as u32,
-            mask: bits::mask(above(first) + first.span.len),
-            place: last.place,
+            turn: (below as u32).wrapping_sub(last.place),
+            mask: bits::placed(bits::mask(above(first) + first.span.len), last.place),
         })
     }
 
@@ -178,52 +190,57 @@ impl Take {
     #[inline]
     fn read(&self, bytes: &[u8]) -> u64 {
         let rest = bytes.get(self.at..).unwrap_or_default();
-        let word = match rest.first_chunk() {
-            Some(word) => u64::from_be_bytes(*word),
-            // There are fewer bytes than eight.
-            None => bits::placed(bits::word(rest), ((WORD - rest.len()) * 8) as u32),
-        };
         self.worth(match self.order {
-            Order::First => word,
-            Order::Last => word.swap_bytes(),
+            Order::First => u64::from_be_bytes(eight(rest)),
+            Order::Last => u64::from_le_bytes(eight(rest)),
         })
     }
 
+    /// What the part is worth in its eight bytes, of which the first is the most significant.
     #[inline(always)]
-    const fn worth(&self, word: u64) -> u64 {
-        bits::raised(bits::above(word, self.below) & self.mask, self.place)
+    pub(super) const fn worth(&self, word: u64) -> u64 {
+        bits::turned(word, self.turn) & self.mask
     }
 
     /// Puts what the part is worth in each frame into `column`.
     #[inline(always)]
     fn column<T>(&self, run: &[u8], len: usize, column: &mut [T], put: impl Fn(&mut T, u64)) {
-        // Behind the last frames there may be no eight bytes.
-        let short = (WORD + self.at).saturating_sub(len).div_ceil(len);
-        let whole = (run.len() / len).saturating_sub(short).min(column.len());
-        let (slots, last) = column.split_at_mut(whole);
-        let words = run.get(self.at..).unwrap_or_default().windows(WORD);
-        let words = words.step_by(len).map(|word| word.first_chunk());
         match self.order {
-            Order::First => {
-                for (slot, word) in slots.iter_mut().zip(words) {
-                    put(
-                        slot,
-                        self.worth(word.map_or(0, |word| u64::from_be_bytes(*word))),
-                    );
-                }
-            }
-            Order::Last => {
-                for (slot, word) in slots.iter_mut().zip(words) {
-                    put(
-                        slot,
-                        self.worth(word.map_or(0, |word| u64::from_le_bytes(*word))),
-                    );
-                }
-            }
-        }
-        let left = run.get(whole * len..).unwrap_or_default();
-        for (slot, frame) in last.iter_mut().zip(left.chunks_exact(len)) {
-            put(slot, self.read(frame));
+            Order::First => self.column_of(run, len, column, put, u64::from_be_bytes),
+            Order::Last => self.column_of(run, len, column, put, u64::from_le_bytes),
         }
     }
+
+    #[inline(always)]
+    fn column_of<T>(
+        &self,
+        run: &[u8],
+        len: usize,
+        column: &mut [T],
+        put: impl Fn(&mut T, u64),
+        word: impl Fn([u8; WORD]) -> u64,
+    ) {
+        let mut rest = run.get(self.at..).unwrap_or_default();
+        for slot in column {
+            put(slot, self.worth(word(eight(rest))));
+            rest = rest.get(len..).unwrap_or_default();
+        }
+    }
+}
+
+/// The first eight bytes, or all there are and zeros behind them.
+#[inline(always)]
+pub(super) fn eight(bytes: &[u8]) -> [u8; WORD] {
+    match bytes.first_chunk() {
+        Some(word) => *word,
+        None => filled_up(bytes),
+    }
+}
+
+/// Fewer than eight bytes, and zeros behind them: the last frames of a run may stand so.
+#[cold]
+fn filled_up(rest: &[u8]) -> [u8; WORD] {
+    let mut word = [0; WORD];
+    word.iter_mut().zip(rest).for_each(|(to, from)| *to = *from);
+    word
 }

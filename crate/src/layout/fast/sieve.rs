@@ -72,7 +72,7 @@ impl Sieve {
     }
 
     /// Whether every check holds.
-    #[inline]
+    #[inline(always)]
     pub(super) fn holds(&self, words: Words) -> bool {
         match self.syndromes.len() {
             4 => self.holds_in::<4>(words),
