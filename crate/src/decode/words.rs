@@ -17,7 +17,7 @@ type Sink<'s> = dyn FnMut(Piece<'_>) + 's;
 /// use encoderscope::{columns::Columns, decode::{Decoder, Words}, profile::Profile};
 /// let profile = [("format", "biss-c"), ("angle-bits", "17"), ("turns-bits", "0")];
 /// let decoder = Decoder::new(Profile::parse(profile)?)?;
-/// let stored = [0x82, 0x40, 0x00, 0x60, 0x36].repeat(1000);
+/// let stored = [0x82, 0x40, 0x00, 0x60, 0x10].repeat(1000);
 /// let (mut words, mut columns) = (Words::new(&decoder, 40, &stored), Columns::default());
 /// words.push_runs(&decoder, &stored, &mut |run| columns.take(&run));
 /// assert_eq!(columns.angle, [0x8000; 1000]);
