@@ -103,7 +103,8 @@ impl Columns {
         }
     }
 
-    pub(crate) fn push(&mut self, reading: Option<Reading>) {
+    /// Takes one reading; nothing where there is none.
+    pub fn push(&mut self, reading: Option<Reading>) {
         let Some(reading) = reading else {
             return;
         };

@@ -1,5 +1,8 @@
 //! The small module: the JavaScript API and the serial worker.
 
+mod columns;
+
+use columns::ColumnReader;
 use encoderscope::{
     bits::Bits,
     decode::{Decoded, Decoder},
@@ -17,7 +20,7 @@ use encoderscope_web::{
     message::{FromDesk, FromEngine, ToDesk, ToEngine},
     serial,
 };
-use js_sys::{Array, Object};
+use js_sys::{Array, Object, Uint8Array};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use wasm_bindgen::prelude::*;
 use web_sys::MessageEvent;
@@ -120,6 +123,19 @@ pub fn decode(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
         .with("unread", Value::List(unread.collect()));
     record.0.extend(summary.record().0);
     to_js(record)
+}
+
+/// Decodes all of the input into columns: bytes as they came, or text as it was pasted.
+#[wasm_bindgen(js_name = decodeColumns)]
+pub fn decode_columns(profile: &JsValue, input: &JsValue) -> Result<Object, JsError> {
+    let mut reader = ColumnReader::new(profile)?;
+    match (input.as_string(), input.dyn_ref::<Uint8Array>()) {
+        (Some(text), _) => reader.push_text(&text),
+        (None, Some(bytes)) => reader.push(bytes),
+        (None, None) => return Err(JsError::new("the input is neither text nor a Uint8Array")),
+    }
+    reader.finish();
+    Ok(reader.take())
 }
 
 /// Ranks what pasted text may be, best first.
