@@ -261,6 +261,18 @@ pub const fn codes(width: u32) -> u128 {
     1 << if width > 127 { 127 } else { width }
 }
 
+/// 2^`width` as a floating-point number, for widths up to 1023.
+#[must_use]
+#[inline]
+pub(crate) const fn power(width: u32) -> f64 {
+    let exponent = if width > 1023 {
+        2046
+    } else {
+        1023 + width as u64
+    };
+    f64::from_bits(exponent << 52)
+}
+
 /// The bit of `value` at `place`, 0 being the least significant.
 #[must_use]
 pub const fn bit(value: u64, place: u32) -> bool {
@@ -285,11 +297,20 @@ pub const fn above(value: u64, place: u32) -> u64 {
     value.wrapping_shr(place)
 }
 
-/// `value` moved up by `place` bits, for places below 64.
+/// `value` turned to the right by `count` bits, or by what is left of them over whole turns: what
+/// leaves it below comes back above.
 #[must_use]
 #[inline]
-pub const fn raised(value: u64, place: u32) -> u64 {
-    value.wrapping_shl(place)
+pub const fn turned(value: u64, count: u32) -> u64 {
+    value.rotate_right(count % 64)
+}
+
+/// `value` as a number whose bit `sign`, a power of two above which nothing stands, counts negative;
+/// 0 leaves it as it is.
+#[must_use]
+#[inline]
+pub(crate) const fn extended(value: u64, sign: u64) -> u64 {
+    (value ^ sign).wrapping_sub(sign)
 }
 
 /// `value` moved up so that its least significant bit stands at `place`.

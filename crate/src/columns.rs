@@ -11,6 +11,7 @@
 //! ```
 
 use crate::{
+    bits,
     framing::{Piece, PieceKind},
     reading::Reading,
 };
@@ -47,25 +48,40 @@ pub struct Run {
 pub struct Health(u8);
 
 impl Health {
-    const ERROR: u8 = 2;
-    const WARNING: u8 = 1;
+    /// Places of its bits.
+    pub(crate) const ERROR: u32 = 1;
+    pub(crate) const WARNING: u32 = 0;
 
-    #[inline]
-    pub(crate) fn of(error: bool, warning: bool) -> Self {
-        Self(u8::from(error) * Self::ERROR + u8::from(warning) * Self::WARNING)
+    pub(crate) const fn of_bits(bits: u8) -> Self {
+        Self(bits)
+    }
+
+    fn of(error: bool, warning: bool) -> Self {
+        let bit = |says: bool, place| bits::placed(says.into(), place);
+        Self(bits::low_byte(
+            bit(error, Self::ERROR) | bit(warning, Self::WARNING),
+        ))
     }
 
     /// The position is not valid.
     #[must_use]
     pub const fn is_error(self) -> bool {
-        self.0 & Self::ERROR != 0
+        bits::bit(self.0 as u64, Self::ERROR)
     }
 
     /// The position is valid, but something is near its limit.
     #[must_use]
     pub const fn is_warning(self) -> bool {
-        self.0 & Self::WARNING != 0
+        bits::bit(self.0 as u64, Self::WARNING)
     }
+}
+
+/// The places of some readings, all 0 yet.
+pub(crate) struct Room<'c> {
+    pub(crate) angle: &'c mut [u64],
+    pub(crate) turns: &'c mut [i64],
+    pub(crate) status: &'c mut [u8],
+    pub(crate) health: &'c mut [Health],
 }
 
 impl Columns {
@@ -97,7 +113,7 @@ impl Columns {
         if frames > 0 {
             self.runs.push(Run {
                 start: piece.start,
-                len: (layout.len / 8) as u32,
+                len: layout.bytes() as u32,
                 frames: frames as u32,
             });
         }
@@ -112,6 +128,21 @@ impl Columns {
         self.turns.push(reading.turns.unwrap_or(0));
         self.status.push(reading.status.unwrap_or(0));
         self.health.push(Health::of(reading.error, reading.warning));
+    }
+
+    /// Makes room for more readings behind those that there are.
+    pub(crate) fn grow(&mut self, count: usize) -> Room<'_> {
+        fn grown<T: Clone + Default>(column: &mut Vec<T>, count: usize) -> &mut [T] {
+            let old = column.len();
+            column.resize(old + count, T::default());
+            column.get_mut(old..).unwrap_or_default()
+        }
+        Room {
+            angle: grown(&mut self.angle, count),
+            turns: grown(&mut self.turns, count),
+            status: grown(&mut self.status, count),
+            health: grown(&mut self.health, count),
+        }
     }
 
     /// Forgets the readings, and keeps their room.

@@ -3,15 +3,17 @@
 mod leads;
 mod lines;
 mod pass;
+mod words;
 
 pub use pass::Pass;
+pub use words::Words;
 
 use crate::{
     bits::{self, BitString, Bits, Span},
     dump::Dump,
     explain::Note,
     format::{Format, Medium, asi1, asi4, biss_c, bus, period, ssi, ssi_tree, ssi7, t485},
-    framing::Why,
+    framing::{Framer, Piece, PieceKind, Why},
     layout::{Resolved, Shape},
     profile::{Profile, ProfileError},
     reading::{Fault, FaultKind, Reading, Values},
@@ -95,6 +97,28 @@ pub enum Decoded<'a> {
     },
 }
 
+impl Decoded<'_> {
+    fn piece(&self) -> Piece<'_> {
+        let (start, bits) = match self {
+            Self::Frame(frame) => (frame.start, frame.bits),
+            Self::Skip { start, bits, .. } => (*start, *bits),
+        };
+        let kind = match self {
+            Self::Frame(frame) => PieceKind::Frame {
+                layout: &frame.layout,
+                sure: frame.sure,
+                holds: frame.layout.holds(frame.bits),
+            },
+            Self::Skip { why, .. } => PieceKind::Skip(*why),
+        };
+        Piece {
+            start,
+            bytes: bits.bytes(),
+            kind,
+        }
+    }
+}
+
 /// Counts over a dump. Every byte is in a frame or skipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
@@ -121,6 +145,10 @@ pub struct Decoder {
     layouts: Vec<Resolved>,
     /// What each first byte says, for byte formats.
     leads: [Lead; 256],
+    /// The one byte that is a request, in formats whose replies do not begin with it.
+    request: Option<u8>,
+    /// Bits of a frame of a bit format without what may stand around it.
+    data_bits: u32,
 }
 
 impl Decoder {
@@ -162,9 +190,14 @@ impl Decoder {
             profile,
             layouts,
             leads: [NO_LEAD; 256],
+            request: None,
+            data_bits: 0,
         };
+        decoder.data_bits = decoder.count_data_bits();
         if profile.medium() == Medium::Bytes {
             decoder.leads = core::array::from_fn(|byte| decoder.lead(byte as u8));
+            let alone = (0..=u8::MAX).find(|byte| decoder.is_request(*byte));
+            decoder.request = alone.filter(|_| !decoder.echoes());
         }
         Ok(decoder)
     }
@@ -260,5 +293,34 @@ impl Decoder {
         let mut pass = Pass::new();
         pass.finish(self, dump, sink);
         pass.summary()
+    }
+
+    /// Decodes a whole dump; good frames of one layout that follow one another come as one piece,
+    /// which is quicker to read into columns. Offsets count the bytes of [`Dump::bytes`].
+    ///
+    /// ```
+    /// use encoderscope::{columns::Columns, decode::Decoder, dump::parse, profile::Profile};
+    /// let profile = Profile::parse([("format", "ssi"), ("angle-bits", "16"), ("turns-bits", "0")])?;
+    /// let decoder = Decoder::new(profile)?;
+    /// let dump = parse(&"1234 00\n".repeat(1000), decoder.profile().medium());
+    /// let mut columns = Columns::default();
+    /// decoder.dump_runs(&dump, &mut |run| columns.take(&run));
+    /// assert_eq!(columns.angle, [0x1234; 1000]);
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    pub fn dump_runs(&self, dump: &Dump, sink: &mut dyn FnMut(Piece<'_>)) {
+        match self.profile.medium() {
+            Medium::Bits => words::lines(self, dump, sink),
+            Medium::Bytes | Medium::Text if !dump.has_directions() => {
+                let mut framer = Framer::at_start();
+                for chunk in dump.bytes().chunks(pass::CHUNK) {
+                    framer.push_runs(self, chunk, sink);
+                }
+                framer.finish_runs(self, sink);
+            }
+            Medium::Bytes | Medium::Text => {
+                let _ = self.dump(dump, &mut |decoded| sink(decoded.piece()));
+            }
+        }
     }
 }

@@ -47,7 +47,7 @@ impl<'a> Piece<'a> {
     /// The frames of a run, one by one; of any other piece itself.
     pub fn frames(self) -> impl Iterator<Item = Self> + 'a {
         let len = match self.kind {
-            PieceKind::Frame { layout, .. } => layout.len / 8,
+            PieceKind::Frame { layout, .. } => layout.bytes(),
             PieceKind::Skip(_) => self.bytes.len(),
         };
         let starts = (self.start..).step_by(len.max(1));
@@ -67,7 +67,7 @@ impl<'a> Piece<'a> {
                 layout,
                 sure: true,
                 holds: true,
-            } => layout.position(Bits::of_bytes(self.bytes)),
+            } => layout.position(Bits::of_bytes(self.bytes).prefix(layout.len)),
             _ => None,
         }
     }
@@ -258,7 +258,10 @@ impl Framer {
         let mut from = 0;
         loop {
             let mut at = from + self.skipped;
-            if self.held && self.beyond_doubt(decoder, &self.buffer[at..]).is_some() {
+            if self.held && self.skipped == 0 && decoder.profile().format == Format::Asi4 {
+                from = self.hold_text(decoder, at, sink);
+                at = from;
+            } else if self.held && self.beyond_doubt(decoder, &self.buffer[at..]).is_some() {
                 self.flush(from, self.skipped, sink);
                 self.skipped = 0;
                 from = self.hold(decoder, at, sink);

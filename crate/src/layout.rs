@@ -14,6 +14,7 @@
 mod fast;
 mod resolved;
 
+pub(crate) use fast::Glimpse;
 pub use resolved::{Coding, Covered, Field, Part, Resolved, Shape};
 
 use crate::{bits, check::Checksum};

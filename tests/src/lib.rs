@@ -125,3 +125,18 @@ impl Noise {
         self.draw() % limit
     }
 }
+
+/// The same bytes, of which some are changed, lost, or have another one put in front.
+#[must_use]
+pub fn disturbed(bytes: &[u8], per_thousand: u64, random: &mut Noise) -> Vec<u8> {
+    let mut disturbed = Vec::with_capacity(bytes.len() + bytes.len() / 32);
+    for byte in bytes {
+        match (random.below(1_000) < per_thousand, random.below(3)) {
+            (false, _) => disturbed.push(*byte),
+            (true, 0) => disturbed.push(byte ^ (1 + random.below(255)) as u8),
+            (true, 1) => disturbed.extend([random.draw() as u8, *byte]),
+            (true, _) => {}
+        }
+    }
+    disturbed
+}

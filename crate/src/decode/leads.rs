@@ -2,7 +2,7 @@
 
 use super::Decoder;
 use crate::{
-    bits::Bits,
+    bits::{self, Bits},
     format::{Format, asi4, bus, own::Own, t485},
     layout::Resolved,
     profile::Dialect,
@@ -35,27 +35,60 @@ pub(crate) struct Lead {
     unsure: bool,
 }
 
-/// How frames begin that follow another without being weighed.
+/// How frames begin that follow another without being weighed, as their first bytes, the first
+/// the least significant: some bits must be so, and others must not.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Follows<'d> {
-    /// With the same byte; where it is a request too, not twice.
-    Echo { byte: u8, request: bool },
-    /// With any byte that is no request. All have one layout.
-    NoRequest(&'d [Lead; 256]),
+pub(crate) struct Follows {
+    mask: u64,
+    value: u64,
+    never_mask: u64,
+    never: u64,
 }
 
-impl Follows<'_> {
-    /// Whether a frame at the start of `bytes` begins so.
-    #[inline(always)]
-    pub(crate) fn holds<const N: usize>(self, bytes: &[u8; N]) -> bool {
-        let (first, second) = (bytes.first(), bytes.get(1));
-        match (self, first) {
-            (Self::Echo { byte, request }, Some(first)) => {
-                *first == byte && !(request && second == Some(first))
-            }
-            (Self::NoRequest(leads), Some(first)) => !leads[usize::from(*first)].request,
-            (_, None) => false,
+impl Follows {
+    /// With the byte that the other begins with; where it is a request too, not twice.
+    const fn echo(byte: u8, request: bool) -> Self {
+        let value = byte as u64;
+        let twice = bits::placed(value, 8) | value;
+        Self {
+            mask: 0xff,
+            value,
+            never_mask: if request { 0xffff } else { 0 },
+            never: if request { twice } else { 1 },
         }
+    }
+
+    /// With any byte but the request.
+    const fn other_than(request: Option<u8>) -> Self {
+        Self {
+            mask: 0,
+            value: 0,
+            never_mask: if request.is_some() { 0xff } else { 0 },
+            never: match request {
+                Some(byte) => byte as u64,
+                None => 1,
+            },
+        }
+    }
+
+    /// With the same `count` bits, up to 64, as another.
+    pub(super) fn same_bits(other: &[u8], count: usize) -> Self {
+        let first = other.get(..8).unwrap_or(other);
+        let unused = 8usize.saturating_sub(first.len()) * 8;
+        let head = bits::placed(bits::word(first), unused as u32);
+        let mask = !bits::mask(64usize.saturating_sub(count));
+        Self {
+            mask: mask.swap_bytes(),
+            value: (head & mask).swap_bytes(),
+            never_mask: 0,
+            never: 1,
+        }
+    }
+
+    /// Whether a frame begins so.
+    #[inline(always)]
+    pub(crate) const fn holds(self, head: u64) -> bool {
+        head & self.mask == self.value && head & self.never_mask != self.never
     }
 }
 
@@ -168,16 +201,13 @@ impl Decoder {
     /// How the frames begin that may follow one beginning with `byte` without being weighed;
     /// `None` where each is to be weighed.
     #[inline]
-    pub(crate) fn follower(&self, byte: u8) -> Option<Follows<'_>> {
+    pub(crate) fn follower(&self, byte: u8) -> Option<Follows> {
         let lead = self.leads.get(usize::from(byte))?;
         match self.echoes() {
             true if lead.unsure || lead.names < 0 => None,
-            true => Some(Follows::Echo {
-                byte,
-                request: lead.request,
-            }),
+            true => Some(Follows::echo(byte, lead.request)),
             false if lead.request => None,
-            false => Some(Follows::NoRequest(&self.leads)),
+            false => Some(Follows::other_than(self.request)),
         }
     }
 

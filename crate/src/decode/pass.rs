@@ -1,6 +1,6 @@
 //! Decoding piece by piece.
 
-use super::{Decoded, Decoder, Frame, Summary};
+use super::{Decoded, Decoder, Frame, Summary, lines::Kept};
 use crate::{
     bits::Bits,
     dump::{Direction, Dump},
@@ -11,9 +11,9 @@ use crate::{
 use alloc::{borrow::Cow, vec::Vec};
 
 /// Lines over which the shape of the frames of a bit format is chosen.
-const ENOUGH_LINES: usize = 4_096;
+pub(super) const ENOUGH_LINES: usize = 4_096;
 /// Bytes that are framed at once.
-const CHUNK: usize = 65_536;
+pub(super) const CHUNK: usize = 65_536;
 
 /// A dump that is decoded piece by piece, and may grow between the pieces.
 ///
@@ -56,6 +56,7 @@ pub struct Pass {
     others: Vec<Decoder>,
     /// Which of the shapes of a bit format the lines have.
     shape: Option<usize>,
+    kept: Kept,
     summary: Summary,
 }
 
@@ -79,6 +80,7 @@ impl Pass {
             asked: None,
             others: Vec::new(),
             shape: None,
+            kept: Kept::new(),
             summary: Summary {
                 bytes: 0,
                 frames: 0,
@@ -249,7 +251,7 @@ impl Pass {
         let heard = heard.filter(|line| line.direction != Some(Direction::Sent));
         let shape = match self.shape {
             Some(shape) => shape,
-            None => decoder.likeliest(heard.map(|line| line.bits)),
+            None => decoder.likeliest(&mut self.kept, heard.map(|line| line.bits)),
         };
         self.shape = Some(shape);
         let mut done = 0;
@@ -261,7 +263,9 @@ impl Pass {
             self.line += 1;
             let frame = match line.direction {
                 Some(Direction::Sent) => Err(Why::Request),
-                Some(Direction::Received) | None => decoder.line_of(line.bits, shape),
+                Some(Direction::Received) | None => {
+                    decoder.line_kept(&mut self.kept, line.bits, shape)
+                }
             };
             match frame {
                 Ok(mut frame) => {

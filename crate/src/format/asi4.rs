@@ -70,3 +70,27 @@ pub fn digits(bytes: &[u8]) -> Option<usize> {
         .position(|byte| *byte == b'\r')?;
     (end > 0 && bytes[..end].iter().all(u8::is_ascii_digit)).then_some(end)
 }
+
+/// The number in the whole line at the start of `bytes`, and the bytes of the line; nothing where
+/// no line is.
+///
+/// ```
+/// use encoderscope::format::asi4::number;
+/// assert_eq!(number(b"512\r\n513"), Some((512, 5)));
+/// assert_eq!((number(b"512\r"), number(b"\r\n"), number(b"123456\r\n")), (None, None, None));
+/// ```
+#[must_use]
+#[inline]
+pub fn number(bytes: &[u8]) -> Option<(u64, usize)> {
+    let mut number = 0;
+    for (at, byte) in bytes.iter().take(DIGITS + 1).enumerate() {
+        match byte.wrapping_sub(b'0') {
+            digit @ 0..10 if at < DIGITS => number = number * 10 + u64::from(digit),
+            _ if at > 0 && *byte == b'\r' => {
+                return (bytes.get(at + 1) == Some(&b'\n')).then_some((number, at + 2));
+            }
+            _ => return None,
+        }
+    }
+    None
+}

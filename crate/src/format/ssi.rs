@@ -27,7 +27,7 @@ use super::{
 use crate::{
     bits::Bits,
     decode::Shapes,
-    layout::{Layout, Resolved, Shape, layout},
+    layout::{Shape, layout},
     profile::{Justify, Profile},
 };
 
@@ -98,18 +98,6 @@ layout! {
         /// Bits clocked after the word.
         tail: Framing[p.tail];
     }
-}
-
-/// The shape of a line that holds an SSI word.
-///
-/// # Errors
-///
-/// The line is too short; says how many bits it would need.
-pub fn shapes(table: &'static Layout, profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
-    let plain = Shape::of(*profile);
-    let word = Resolved::new(table, plain).len as u32;
-    let spare = (bits.len() as u32).checked_sub(word).ok_or(word)?;
-    Ok(with_spare(profile, plain, bits, spare))
 }
 
 /// The shapes of a line with `spare` bits beside what it should hold, the likeliest first.

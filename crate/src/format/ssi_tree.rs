@@ -24,7 +24,7 @@
 
 use super::{
     Format, Limits, Link, Spec, said,
-    ssi::{AFTER, BEFORE, shapes as plain_shapes, with_spare},
+    ssi::{AFTER, BEFORE, with_spare},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
 use crate::{
@@ -164,7 +164,9 @@ pub const fn needed_bits(p: &Profile) -> u32 {
 ///
 /// The line is too short; says how many bits it would need.
 pub fn shapes(profile: &Profile, bits: Bits<'_>) -> Result<Shapes, u32> {
-    let one = plain_shapes(&WORD, profile, bits)?;
+    let spare = (bits.len() as u32).checked_sub(profile.frame_bits);
+    let spare = spare.ok_or(profile.frame_bits)?;
+    let one = with_spare(profile, Shape::of(*profile), bits, spare);
     let word = profile.frame_bits as usize;
     let around = match profile.justify {
         Justify::Left => word..bits.len(),

@@ -1,9 +1,8 @@
 //! The evidence for a phase, in bits: what its frames say for and against it.
 
 use crate::{
-    bits::{self, Bits},
-    layout::Resolved,
-    reading::Values,
+    bits,
+    layout::{Glimpse, Resolved},
 };
 
 /// How many frames a phase is judged by.
@@ -17,6 +16,9 @@ const REPEATS: i32 = 2;
 /// A number that jumps.
 const JUMPS: i32 = -3;
 
+/// The least that a frame can add to a score, whether it passes or fails.
+pub(super) const WORST: i32 = LATE + 2 * JUMPS;
+
 /// Where the shaft is, in turns, and the range after which it wraps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Position {
@@ -26,16 +28,25 @@ pub(super) struct Position {
 
 impl Position {
     pub(super) fn of(layout: &Resolved, frame: &[u8]) -> Option<Self> {
-        Self::from_values(layout, &layout.values(Bits::of_bytes(frame)))
+        Self::of_glimpse(layout, &layout.glimpse(frame))
     }
 
-    fn from_values(layout: &Resolved, values: &Values) -> Option<Self> {
+    /// An angle of an encoder that counts no turns.
+    #[inline]
+    pub(super) fn of_angle(angle: u64, bits: u32) -> Self {
+        Self {
+            turns: angle as f64 / bits::power(bits),
+            range: 1.0,
+        }
+    }
+
+    fn of_glimpse(layout: &Resolved, values: &Glimpse) -> Option<Self> {
         let profile = &layout.shape.profile;
-        let angle = values.angle? as f64 / bits::codes(profile.angle_bits) as f64;
+        let angle = values.angle? as f64 / bits::power(profile.angle_bits);
         Some(match values.turns {
             Some(turns) => Self {
                 turns: turns as f64 + angle,
-                range: bits::codes(profile.turns_bits) as f64,
+                range: bits::power(profile.turns_bits),
             },
             None => Self {
                 turns: angle,
@@ -116,11 +127,13 @@ impl<'b> Chain<'b> {
             .any(|(visited, _)| *visited == at)
     }
 
-    /// Counts a frame that passes; `names` is what its first byte says for it.
-    pub(super) fn add(&mut self, layout: &Resolved, frame: &'b [u8], at: usize, names: i32) {
+    /// Counts a frame at the start of `bytes` that passes; `names` is what its first byte says
+    /// for it.
+    pub(super) fn add(&mut self, layout: &Resolved, bytes: &'b [u8], at: usize, names: i32) {
+        let frame = bytes.get(..layout.len / 8).unwrap_or_default();
         let known = self.frames[..self.passes]
             .iter()
-            .any(|(_, other)| *other == frame);
+            .any(|(_, other)| other.last() == frame.last() && *other == frame);
         if known {
             if self.repeats < 3 {
                 self.repeats += 1;
@@ -138,12 +151,12 @@ impl<'b> Chain<'b> {
         }
         self.frames[self.passes] = (at, frame);
         self.passes += 1;
-        let values = layout.values(Bits::of_bytes(frame));
+        let values = layout.glimpse(bytes);
         if self.status.is_some() && values.status != self.status {
             self.score += JUMPS;
         }
         self.status = values.status;
-        let Some(position) = Position::from_values(layout, &values) else {
+        let Some(position) = Position::of_glimpse(layout, &values) else {
             return;
         };
         if self.passes <= 2 {

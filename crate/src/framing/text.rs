@@ -1,8 +1,13 @@
 //! Text streams: a line is a frame. There is no checksum, so the line before and the one behind
 //! it must bear a number out.
 
-use super::{Framer, Step, Trust, Why, evidence::Position, passing};
-use crate::{bits::Bits, decode::Decoder, layout::Resolved};
+use super::{Framer, Piece, PieceKind, Sink, Step, Trust, Why, evidence::Position, passing};
+use crate::{
+    bits::{self, Bits},
+    decode::Decoder,
+    format::asi4,
+    layout::Resolved,
+};
 
 /// Longer than any line: text without line ends is not waited for beyond this.
 const LINE: usize = 64;
@@ -58,6 +63,55 @@ impl Framer {
         }
     }
 
+    /// Reports lines from `from` on for as long as each is a number between its neighbours;
+    /// returns where it stops. Those of as many digits as the one before come together.
+    pub(super) fn hold_text(
+        &mut self,
+        decoder: &Decoder,
+        from: usize,
+        sink: &mut Sink<'_>,
+    ) -> usize {
+        let width = decoder.profile().angle_bits;
+        let most = bits::mask(width as usize);
+        let read = |bytes: &[u8]| asi4::number(bytes).filter(|(number, _)| *number <= most);
+        let (mut at, mut begin, mut same) = (from, from, 0);
+        let mut here = read(&self.buffer[at..]);
+        while let (Some((number, len)), Some(last)) = (here, self.last) {
+            let next = read(&self.buffer[at + len..]);
+            let position = Position::of_angle(number, width);
+            let between = next
+                .is_some_and(|(next, _)| !position.is_off(last, Position::of_angle(next, width)));
+            if !between {
+                break;
+            }
+            if len != same {
+                self.lines(decoder, begin..at, sink);
+                (begin, same) = (at, len);
+            }
+            (self.earlier, self.last) = (self.last, Some(position));
+            at += len;
+            here = next;
+        }
+        self.lines(decoder, begin..at, sink);
+        at
+    }
+
+    /// Reports lines of one length.
+    fn lines(&self, decoder: &Decoder, at: core::ops::Range<usize>, sink: &mut Sink<'_>) {
+        let bytes = &self.buffer[at.clone()];
+        if let Some(layout) = decoder.layout(bytes) {
+            sink(Piece {
+                start: self.base + at.start as u64,
+                bytes,
+                kind: PieceKind::Frame {
+                    layout,
+                    sure: true,
+                    holds: true,
+                },
+            });
+        }
+    }
+
     /// Whether a position lies off the way between its two nearest neighbours, as it does when a
     /// digit was lost or changed: the line before and the one behind, or at an end of the stream
     /// the two that there are.
@@ -78,7 +132,15 @@ impl Framer {
         let (Some((one, other)), Some(here)) = (neighbours, Position::of(layout, line)) else {
             return false;
         };
+        here.is_off(one, other)
+    }
+}
+
+impl Position {
+    /// Whether it is further from both its neighbours than they are apart.
+    #[inline]
+    fn is_off(self, one: Self, other: Self) -> bool {
         let most = 2.0 * one.distance(other) + SMALL;
-        here.distance(one) > most && here.distance(other) > most
+        self.distance(one) > most && self.distance(other) > most
     }
 }

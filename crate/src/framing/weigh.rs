@@ -2,9 +2,9 @@
 
 use super::{
     Framer, Step, Trust, Why,
-    evidence::{Chain, Position, WINDOW},
+    evidence::{Chain, Position, WINDOW, WORST},
 };
-use crate::{bits::Bits, decode::Decoder, format::Link, layout::Resolved};
+use crate::{decode::Decoder, format::Link, layout::Resolved};
 
 /// Evidence that a phase needs, and by which it must lead, in bits.
 const ENOUGH: i32 = 14;
@@ -13,102 +13,174 @@ const LEAD: i32 = 6;
 const HELD: i32 = 6;
 /// Dumps tend to begin and end with whole frames.
 const EDGE: i32 = 4;
+/// The longest frame has as many bytes, so that there are fewer other phases.
+const MOST_RIVALS: usize = 32;
 /// A frame that fails.
 const FAILS: i32 = -4;
+
+/// How far a phase is followed.
+#[derive(Clone, Copy)]
+enum Until {
+    /// For a window of frames, or until so many pass.
+    Passes(usize),
+    /// For a window of frames, or until the score will be this, whatever comes.
+    Score(i32),
+}
+
+/// The frame that would stand at the bytes at hand, and whether its checks hold.
+#[derive(Clone, Copy)]
+struct First<'d> {
+    layout: &'d Resolved,
+    passes: bool,
+}
+
 impl Framer {
     /// Decides by the evidence for every phase.
     pub(super) fn weigh<'d>(&self, decoder: &'d Decoder, rest: &[u8]) -> Step<'d> {
-        let passes = passing(decoder, rest).is_some();
-        let first = decoder.layout(rest);
-        let anchored = self.held || self.contiguous;
-        let mut own = None;
+        let layout = decoder.layout(rest);
+        let passes = layout.is_some_and(|layout| layout.holds_at(rest));
         if !passes && is_before_reply(decoder, rest, self.last) {
             return Step::Skip(1, Why::Request);
         }
-        if passes || (anchored && first.is_some_and(|layout| layout.len / 8 <= rest.len())) {
-            let chain = chain(decoder, rest, 0, self.last);
-            let bonus = if self.held {
-                HELD
-            } else if anchored {
-                EDGE
-            } else {
-                0
-            };
-            own = Some(chain.plus(bonus));
-        }
-        let mut other: Option<(usize, i32)> = None;
+        let whole = layout.filter(|layout| layout.len / 8 <= rest.len());
+        let first = whole
+            .filter(|_| passes || self.is_anchored())
+            .map(|layout| First { layout, passes });
+        let mut rivals = [0; MOST_RIVALS];
+        let mut count = 0;
         for shift in 1..decoder.longest().min(rest.len()) {
-            let visited = own.as_ref().is_some_and(|own| own.visits(shift));
-            if visited
-                || passing(decoder, &rest[shift..]).is_none()
-                || is_late(decoder, rest, shift)
+            let passes = passing(decoder, &rest[shift..]).is_some();
+            if let Some(rival) = rivals.get_mut(count)
+                && passes
+                && !is_late(decoder, rest, shift)
             {
-                continue;
+                *rival = shift;
+                count += 1;
             }
-            let score = chain(decoder, rest, shift, self.last).score;
+        }
+        let rivals = &rivals[..count];
+        if rivals.is_empty() {
+            return match first {
+                Some(first) => self.alone(decoder, rest, first),
+                None => self.nothing(decoder, rest),
+            };
+        }
+        let all = Until::Passes(WINDOW);
+        let own = first.map(|first| (first, self.own_chain(decoder, rest, all)));
+        let visited = |shift| own.as_ref().is_some_and(|(_, own)| own.visits(shift));
+        let until = match (&own, rivals) {
+            // That the only phase that passes is better than this one is all that matters.
+            (Some((_, own)), [_]) if own.passes == 0 => Until::Score(own.score + 1),
+            _ => all,
+        };
+        let mut other: Option<(usize, i32)> = None;
+        for shift in rivals.iter().copied().filter(|shift| !visited(*shift)) {
+            let score = chain(decoder, rest, shift, self.last, until).score;
             if other.is_none_or(|(_, best)| score > best) {
                 other = Some((shift, score));
             }
         }
         match (own, other) {
-            (Some(own), other) if other.is_none_or(|(_, score)| own.score >= score) => {
-                let Some(layout) = first else {
-                    return Step::Skip(1, Why::NoFrame);
-                };
-                let lead = other.is_none_or(|(_, score)| own.score - score >= LEAD);
-                if passes {
-                    let confirmed =
-                        anchored || own.passes > 1 || decoder.profile().link() != Link::Stream;
-                    let frame = &rest[..layout.len / 8];
-                    let unrivalled = anchored && other.is_none() && layout.is_sound(frame);
-                    let sure = lead
-                        && confirmed
-                        && (own.score >= ENOUGH || unrivalled)
-                        && self.is_addressed(decoder, &own, frame, rest.len(), anchored)
-                        && (self.held || !own.leaps(self.last));
-                    Step::Frame(layout, if sure { Trust::Sure } else { Trust::Unsure })
-                } else if own.visits(1) {
-                    Step::Skip(1, Why::Request)
-                } else if own.passes > 0 {
-                    Step::Frame(layout, Trust::Kept)
-                } else if self.held || ends_whole(decoder, layout, rest, anchored) {
-                    Step::Frame(layout, Trust::Last)
-                } else {
-                    Step::Skip(1, Why::NoFrame)
-                }
+            (Some((first, own)), other) if other.is_none_or(|(_, score)| own.score >= score) => {
+                let other = other.map(|(_, score)| score);
+                self.best(decoder, rest, first, &own, other)
             }
             // The frames only repeat one another, so that the zeros in front of another phase
             // prove nothing against the phase that the input began with.
-            (Some(own), Some((shift, _)))
-                if passes && anchored && own.only_repeats() && self.last.is_none() =>
+            (Some((first, own)), Some(_))
+                if passes && self.is_anchored() && own.only_repeats() && self.last.is_none() =>
             {
-                first.map_or(skip(decoder, rest, shift), |layout| {
-                    Step::Frame(layout, Trust::Unsure)
-                })
+                Step::Frame(first.layout, Trust::Unsure)
             }
             (_, Some((shift, _))) => skip(decoder, rest, shift),
-            (_, None) => self.nothing(decoder, rest, anchored),
+            (_, None) => self.nothing(decoder, rest),
         }
+    }
+
+    /// Decides on the only phase whose first frame passes, if it does: no more of the frames
+    /// behind it are looked at than can matter.
+    fn alone<'d>(&self, decoder: &'d Decoder, rest: &[u8], first: First<'d>) -> Step<'d> {
+        let frame = &rest[..first.layout.len / 8];
+        let known = decoder.is_known_lead(rest[0], self.previous.first().copied());
+        let until = match first.passes {
+            false => Until::Passes(1),
+            true if !known => Until::Passes(WINDOW),
+            true if !self.is_unrivalled(first.layout, frame) => Until::Score(ENOUGH),
+            true if self.held => Until::Passes(0),
+            true => Until::Passes(2),
+        };
+        let own = self.own_chain(decoder, rest, until);
+        self.best(decoder, rest, first, &own, None)
+    }
+
+    /// Decides on a phase that no other beats; the best of the others has the score `other`.
+    fn best<'d>(
+        &self,
+        decoder: &Decoder,
+        rest: &[u8],
+        first: First<'d>,
+        own: &Chain<'_>,
+        other: Option<i32>,
+    ) -> Step<'d> {
+        let layout = first.layout;
+        let lead = other.is_none_or(|score| own.score - score >= LEAD);
+        if first.passes {
+            let confirmed =
+                self.is_anchored() || own.passes > 1 || decoder.profile().link() != Link::Stream;
+            let frame = &rest[..layout.len / 8];
+            let unrivalled = other.is_none() && self.is_unrivalled(layout, frame);
+            let sure = lead
+                && confirmed
+                && (unrivalled || own.score >= ENOUGH)
+                && self.is_addressed(decoder, own, frame, rest.len())
+                && (self.held || !own.leaps(self.last));
+            Step::Frame(layout, if sure { Trust::Sure } else { Trust::Unsure })
+        } else if own.visits(1) {
+            Step::Skip(1, Why::Request)
+        } else if own.passes > 0 {
+            Step::Frame(layout, Trust::Kept)
+        } else if self.held || ends_whole(decoder, layout, rest, self.is_anchored()) {
+            Step::Frame(layout, Trust::Last)
+        } else {
+            Step::Skip(1, Why::NoFrame)
+        }
+    }
+
+    /// Whether this is the phase held before, or that of the start.
+    const fn is_anchored(&self) -> bool {
+        self.held || self.contiguous
+    }
+
+    /// Whether a frame that passes needs no more evidence where no other phase passes.
+    fn is_unrivalled(&self, layout: &Resolved, frame: &[u8]) -> bool {
+        self.is_anchored() && layout.is_sound(frame)
+    }
+
+    /// The evidence for the phase that begins here.
+    fn own_chain<'b>(&self, decoder: &Decoder, rest: &'b [u8], until: Until) -> Chain<'b> {
+        let bonus = match self.is_anchored() {
+            true if self.held => HELD,
+            true => EDGE,
+            false => 0,
+        };
+        let until = match until {
+            Until::Score(score) => Until::Score(score - bonus),
+            Until::Passes(_) => until,
+        };
+        chain(decoder, rest, 0, self.last, until).plus(bonus)
     }
 
     /// Whether a BUS frame can be trusted to come from the device that it names: the profile's,
     /// one that is heard again, or the only one of a dump.
-    fn is_addressed(
-        &self,
-        decoder: &Decoder,
-        own: &Chain<'_>,
-        frame: &[u8],
-        rest: usize,
-        anchored: bool,
-    ) -> bool {
+    fn is_addressed(&self, decoder: &Decoder, own: &Chain<'_>, frame: &[u8], rest: usize) -> bool {
         let known = decoder.is_known_lead(frame[0], self.previous.first().copied());
-        let alone = anchored && frame.len() == rest;
+        let alone = self.is_anchored() && frame.len() == rest;
         decoder.names(frame[0]) >= 0 && (known || alone || own.begins_again(frame[0]))
     }
 
     /// No phase of the next frame passes.
-    fn nothing<'d>(&self, decoder: &'d Decoder, rest: &[u8], anchored: bool) -> Step<'d> {
-        let follows = anchored || self.skipped == 0;
+    fn nothing<'d>(&self, decoder: &'d Decoder, rest: &[u8]) -> Step<'d> {
+        let follows = self.is_anchored() || self.skipped == 0;
         if let Some(layout) = decoder.layout(rest)
             && follows
             && rest.len() < layout.len / 8
@@ -135,7 +207,8 @@ fn is_before_reply(decoder: &Decoder, rest: &[u8], last: Option<Position>) -> bo
     let echoed = decoder.echoes() && rest.get(1) == Some(&rest[0]);
     let behind = decoder.layout(&rest[1..]);
     let alone = behind.is_some_and(|layout| layout.len / 8 + 1 == rest.len());
-    echoed || alone || chain(decoder, rest, 1, last).passes > chain(decoder, rest, 0, last).passes
+    let passes = |start| chain(decoder, rest, start, last, Until::Passes(WINDOW)).passes;
+    echoed || alone || passes(1) > passes(0)
 }
 
 /// Whether what is left of a dump is whole frames from here on.
@@ -156,9 +229,9 @@ fn skip<'d>(decoder: &Decoder, rest: &[u8], count: usize) -> Step<'d> {
 /// The layout of a whole frame at the start of `bytes` whose checks hold.
 #[inline]
 pub(super) fn passing<'d>(decoder: &'d Decoder, bytes: &[u8]) -> Option<&'d Resolved> {
-    let layout = decoder.layout(bytes)?;
-    let frame = bytes.get(..layout.len / 8)?;
-    layout.holds(Bits::of_bytes(frame)).then_some(layout)
+    decoder
+        .layout(bytes)
+        .filter(|layout| layout.holds_at(bytes))
 }
 
 /// Whether `bytes` begin with a frame that no phase one byte early explains better. In a phase
@@ -178,13 +251,27 @@ fn is_late(decoder: &Decoder, rest: &[u8], shift: usize) -> bool {
         && passing(decoder, &rest[shift - 1..]).is_some()
 }
 
-/// Follows a phase for a window of frames, to the first that fails after one that passes:
-/// what stands behind it may have slipped.
-fn chain<'b>(decoder: &Decoder, rest: &'b [u8], start: usize, last: Option<Position>) -> Chain<'b> {
+/// Follows a phase to the first frame that fails after one that passes: what stands behind it
+/// may have slipped.
+fn chain<'b>(
+    decoder: &Decoder,
+    rest: &'b [u8],
+    start: usize,
+    last: Option<Position>,
+    until: Until,
+) -> Chain<'b> {
     let mut chain = Chain::new(last);
     let mut at = start;
     let mut fails = 0;
-    for _ in 0..WINDOW {
+    for left in (1..=WINDOW as i32).rev() {
+        let enough = match until {
+            Until::Passes(frames) => chain.passes >= frames,
+            // Two frames are needed to see a leap.
+            Until::Score(score) => chain.passes > 1 && chain.score + left * WORST >= score,
+        };
+        if enough {
+            break;
+        }
         let Some(mut here) = rest.get(at..).filter(|here| !here.is_empty()) else {
             break;
         };
@@ -197,9 +284,8 @@ fn chain<'b>(decoder: &Decoder, rest: &'b [u8], start: usize, last: Option<Posit
             }
         }
         if let Some(layout) = layout {
-            let frame = &here[..layout.len / 8];
-            chain.add(layout, frame, at, decoder.names(frame[0]));
-            at += frame.len();
+            chain.add(layout, here, at, decoder.names(here[0]));
+            at += layout.len / 8;
             continue;
         }
         let Some(layout) = decoder

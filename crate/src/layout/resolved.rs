@@ -171,7 +171,7 @@ impl Resolved {
     }
 
     /// The fields, in transmission order; each has bits.
-    pub fn fields(&self) -> impl Iterator<Item = &Field> {
+    pub fn fields(&self) -> impl DoubleEndedIterator<Item = &Field> {
         self.fields.iter()
     }
 

@@ -10,7 +10,7 @@ use encoderscope_tests::{Noise, decoder};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-const PROFILES: [&str; 12] = [
+const PROFILES: [&str; 14] = [
     "format=period",
     "format=period angle-bits=16 turns-bits=0",
     "format=rs485 command=1 turns-bits=0 angle-bits=17",
@@ -23,6 +23,8 @@ const PROFILES: [&str; 12] = [
     "format=bus angle-bits=16 turns-bits=0 address=3",
     "format=asi1",
     "format=asi4",
+    "format=own layout=Long;stream;const:8:0xa5,turns:12,angle:52,error:1:low,status:7:low,skip:8,crc:8:0x07",
+    "format=own layout=Parts;stream;angle:3,skip:2,angle:13,warning:1,skip:3,error:1,skip:1,crc:16:0x8005",
 ];
 
 /// A shaft that turns, stands still for a while, and turns on; with bytes changed, lost and

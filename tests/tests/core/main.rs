@@ -13,6 +13,7 @@ mod captures_files;
 mod captures_pieces;
 mod captures_timing;
 mod columns;
+mod columns_lines;
 mod corpus;
 mod crc_search;
 mod detection;
