@@ -10,6 +10,7 @@ test:
 
 bench:
 	@tests/bench/run.sh $(if $(WRITE),--write)
+	@tests/bench/page/run.sh $(if $(WRITE),--write)
 
 fuzz:
 	@tests/fuzz/run.sh $(or $(TARGET),decode) $(or $(SECONDS),600)
