@@ -119,8 +119,7 @@ impl Columns {
         }
     }
 
-    /// Takes one reading; nothing where there is none.
-    pub fn push(&mut self, reading: Option<Reading>) {
+    pub(crate) fn push(&mut self, reading: Option<Reading>) {
         let Some(reading) = reading else {
             return;
         };

@@ -2,9 +2,8 @@
 
 use crate::{Noise, decoder};
 use encoderscope::{
-    bits::Bits,
     columns::Columns,
-    decode::{Decoded, Decoder, Pass},
+    decode::{Decoder, Words},
     dump::Reader,
     framing::Framer,
     reading::Values,
@@ -213,14 +212,12 @@ fn stream(decoder: &Decoder, input: &[u8], sink: &mut dyn FnMut(&Columns)) {
 }
 
 fn words(decoder: &Decoder, input: &[u8], sink: &mut dyn FnMut(&Columns)) {
-    let word = decoder.main_layout().len.div_ceil(8);
+    let bits = decoder.main_layout().len.next_multiple_of(8);
+    let head = input.get(..CHUNK).unwrap_or(input);
+    let mut words = Words::new(decoder, bits, head);
     let mut columns = Columns::default();
-    for chunk in input.chunks(CHUNK / word * word) {
-        for word in chunk.chunks_exact(word) {
-            if let Ok(frame) = decoder.line(Bits::of_bytes(word)) {
-                columns.push(frame.reading());
-            }
-        }
+    for chunk in input.chunks(CHUNK) {
+        words.push_runs(decoder, chunk, &mut |run| columns.take(&run));
         sink(&columns);
         columns.clear();
     }
@@ -232,13 +229,7 @@ fn text(decoder: &Decoder, input: &[u8], sink: &mut dyn FnMut(&Columns)) {
     for chunk in input.chunks(CHUNK) {
         reader.push(chunk);
     }
-    let dump = reader.finish();
     let mut columns = Columns::default();
-    let mut pass = Pass::new();
-    pass.finish(decoder, &dump, &mut |decoded| {
-        if let Decoded::Frame(frame) = decoded {
-            columns.push(frame.reading());
-        }
-    });
+    decoder.dump_runs(&reader.finish(), &mut |run| columns.take(&run));
     sink(&columns);
 }

@@ -2,10 +2,9 @@
 
 use crate::decoder;
 use encoderscope::{
-    bits::Bits,
     columns::{Columns, Health},
-    decode::{Decoded, Decoder, Summary},
-    dump::{Dump, Reader},
+    decode::{Decoder, Summary, Words},
+    dump::Reader,
     format::Medium,
     framing::{Framer, Piece, PieceKind},
 };
@@ -21,6 +20,7 @@ const CHUNK: u32 = 65_536;
 pub struct ColumnReader {
     decoder: Decoder,
     framer: Framer,
+    words: Option<Words>,
     text: Option<Reader>,
     chunk: Vec<u8>,
     columns: Columns,
@@ -35,6 +35,7 @@ impl ColumnReader {
         Ok(Self {
             decoder: decoder(profile)?,
             framer: Framer::at_start(),
+            words: None,
             text: None,
             chunk: Vec::new(),
             columns: Columns::default(),
@@ -42,20 +43,13 @@ impl ColumnReader {
         })
     }
 
-    /// Decodes more bytes, cut anywhere; of formats that are clocked whole words.
+    /// Decodes more bytes, cut anywhere; of clocked formats words, one behind the other.
     pub fn push(&mut self, bytes: &Uint8Array) {
-        let most = match self.decoder.profile().medium() {
-            Medium::Bytes | Medium::Text => CHUNK,
-            Medium::Bits => CHUNK - CHUNK % self.word() as u32,
-        };
-        for start in (0..bytes.length()).step_by(most as usize) {
-            let piece = bytes.subarray(start, bytes.length().min(start + most));
+        for start in (0..bytes.length()).step_by(CHUNK as usize) {
+            let piece = bytes.subarray(start, bytes.length().min(start + CHUNK));
             self.chunk.resize(piece.length() as usize, 0);
             piece.copy_to(&mut self.chunk);
-            match self.decoder.profile().medium() {
-                Medium::Bytes | Medium::Text => self.frame(),
-                Medium::Bits => self.words(),
-            }
+            self.decode();
         }
     }
 
@@ -69,17 +63,15 @@ impl ColumnReader {
 
     /// The input has ended; decodes what is left. What is pushed then is another input.
     pub fn finish(&mut self) {
-        let Self {
-            decoder,
-            framer,
-            columns,
-            summary,
-            ..
-        } = self;
-        framer.finish_runs(decoder, &mut |piece| take(&piece, columns, summary));
+        let (decoder, columns, summary) = (&self.decoder, &mut self.columns, &mut self.summary);
+        let mut sink = |piece: Piece<'_>| take(&piece, columns, summary);
+        self.framer.finish_runs(decoder, &mut sink);
         self.framer = Framer::at_start();
-        if let Some(reader) = self.text.take() {
-            self.dump(&reader.finish());
+        if let Some(mut words) = self.words.take() {
+            words.finish_runs(&mut sink);
+        }
+        if let Some(text) = self.text.take() {
+            decoder.dump_runs(&text.finish(), &mut sink);
         }
     }
 
@@ -134,53 +126,22 @@ impl ColumnReader {
 }
 
 impl ColumnReader {
-    /// Bytes of a word of a clocked format.
-    fn word(&self) -> usize {
-        self.decoder.main_layout().len.div_ceil(8).max(1)
-    }
-
-    /// Decodes the chunk as a part of a stream.
-    fn frame(&mut self) {
-        let Self {
-            decoder,
-            framer,
-            chunk,
-            columns,
-            summary,
-            ..
-        } = self;
-        framer.push_runs(decoder, chunk, &mut |piece| take(&piece, columns, summary));
-    }
-
-    /// Decodes the chunk as words.
-    fn words(&mut self) {
-        let len = self.word();
-        for word in self.chunk.chunks(len) {
-            let frame = self.decoder.line(Bits::of_bytes(word));
-            self.summary.bytes += word.len() as u64;
-            match frame {
-                Ok(frame) => {
-                    self.summary.frames += 1;
-                    self.summary.bad += u64::from(!frame.ok());
-                    self.columns.push(frame.reading());
-                }
-                Err(_) => self.summary.skipped += word.len() as u64,
+    /// Decodes the chunk.
+    fn decode(&mut self) {
+        let (decoder, columns, summary) = (&self.decoder, &mut self.columns, &mut self.summary);
+        let mut sink = |piece: Piece<'_>| take(&piece, columns, summary);
+        match decoder.profile().medium() {
+            Medium::Bytes | Medium::Text => {
+                self.framer.push_runs(decoder, &self.chunk, &mut sink);
+            }
+            Medium::Bits => {
+                let bits = decoder.main_layout().len.next_multiple_of(8);
+                let words = self
+                    .words
+                    .get_or_insert_with(|| Words::new(decoder, bits, &self.chunk));
+                words.push_runs(decoder, &self.chunk, &mut sink);
             }
         }
-    }
-
-    /// Decodes a pasted text.
-    fn dump(&mut self, dump: &Dump) {
-        let columns = &mut self.columns;
-        let counts = self.decoder.dump(dump, &mut |decoded| {
-            if let Decoded::Frame(frame) = decoded {
-                columns.push(frame.reading());
-            }
-        });
-        self.summary.bytes += counts.bytes;
-        self.summary.frames += counts.frames;
-        self.summary.bad += counts.bad;
-        self.summary.skipped += counts.skipped;
     }
 }
 
@@ -193,7 +154,7 @@ fn take(piece: &Piece<'_>, columns: &mut Columns, summary: &mut Summary) {
             sure,
             holds,
         } => {
-            let frames = bytes * 8 / layout.len as u64;
+            let frames = bytes / layout.bytes() as u64;
             summary.frames += frames;
             summary.bad += if sure && holds { 0 } else { frames };
         }
