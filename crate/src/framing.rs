@@ -261,11 +261,11 @@ impl Framer {
             if self.held && self.skipped == 0 && decoder.profile().format == Format::Asi4 {
                 from = self.hold_text(decoder, at, sink);
                 at = from;
-            } else if self.held && self.beyond_doubt(decoder, &self.buffer[at..]).is_some() {
-                self.flush(from, self.skipped, sink);
-                self.skipped = 0;
-                from = self.hold(decoder, at, sink);
-                at = from;
+            } else if self.held {
+                let held = self.hold(decoder, at, sink);
+                if held > at {
+                    (from, at) = (held, held);
+                }
             }
             match self.step(decoder, at, ending) {
                 Step::Wait => break,
@@ -316,7 +316,8 @@ impl Framer {
         self.base += from as u64;
     }
 
-    /// Reports frames for as long as the held phase passes beyond doubt; returns where it stops.
+    /// Reports what was skipped and frames for as long as the held phase passes beyond doubt, if it
+    /// does; returns where it stops.
     fn hold(&mut self, decoder: &Decoder, from: usize, sink: &mut Sink<'_>) -> usize {
         let mut at = from;
         let mut moved = None;
@@ -329,6 +330,9 @@ impl Framer {
                 None => (1, repeats),
             };
             let run = &run[..frames * len];
+            // What was skipped in front of the first comes before it.
+            self.flush(at - self.skipped, self.skipped, sink);
+            self.skipped = 0;
             sink(Piece {
                 start: self.base + at as u64,
                 bytes: run,

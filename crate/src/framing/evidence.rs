@@ -66,7 +66,10 @@ impl Position {
 pub(super) struct Chain<'b> {
     pub(super) score: i32,
     pub(super) passes: usize,
-    frames: [(usize, &'b [u8]); WINDOW],
+    /// What the places of the frames are counted in.
+    input: &'b [u8],
+    /// Where the frames begin, and how long they are.
+    frames: [(u32, u32); WINDOW],
     last: Option<Position>,
     status: Option<u8>,
     repeats: i32,
@@ -77,11 +80,13 @@ pub(super) struct Chain<'b> {
 }
 
 impl<'b> Chain<'b> {
-    pub(super) const fn new(last: Option<Position>) -> Self {
+    /// No frame yet; the score begins with `bonus`.
+    pub(super) const fn new(input: &'b [u8], last: Option<Position>, bonus: i32) -> Self {
         Self {
-            score: 0,
+            score: bonus,
             passes: 0,
-            frames: [(0, &[]); WINDOW],
+            input,
+            frames: [(0, 0); WINDOW],
             last,
             status: None,
             repeats: 0,
@@ -91,9 +96,14 @@ impl<'b> Chain<'b> {
         }
     }
 
-    pub(super) fn plus(mut self, bonus: i32) -> Self {
-        self.score += bonus;
-        self
+    /// Where the frames that passed begin, and their bytes.
+    fn frames(&self) -> impl Iterator<Item = (usize, &'b [u8])> {
+        let frames = self.frames.iter().take(self.passes);
+        frames.map(|(at, len)| {
+            let at = *at as usize;
+            let frame = self.input.get(at..at + *len as usize);
+            (at, frame.unwrap_or_default())
+        })
     }
 
     /// Whether there are several frames, all the same.
@@ -114,7 +124,7 @@ impl<'b> Chain<'b> {
 
     /// Whether more than one frame begins with this byte.
     pub(super) fn begins_again(&self, first: u8) -> bool {
-        let frames = self.frames[..self.passes].iter();
+        let frames = self.frames();
         frames
             .filter(|(_, frame)| frame.first() == Some(&first))
             .count()
@@ -122,18 +132,16 @@ impl<'b> Chain<'b> {
     }
 
     pub(super) fn visits(&self, at: usize) -> bool {
-        self.frames[..self.passes]
-            .iter()
-            .any(|(visited, _)| *visited == at)
+        self.frames().any(|(visited, _)| visited == at)
     }
 
-    /// Counts a frame at the start of `bytes` that passes; `names` is what its first byte says
-    /// for it.
-    pub(super) fn add(&mut self, layout: &Resolved, bytes: &'b [u8], at: usize, names: i32) {
-        let frame = bytes.get(..layout.len / 8).unwrap_or_default();
-        let known = self.frames[..self.passes]
-            .iter()
-            .any(|(_, other)| other.last() == frame.last() && *other == frame);
+    /// Counts a frame that passes; `names` is what its first byte says for it.
+    pub(super) fn add(&mut self, layout: &Resolved, at: usize, names: i32) {
+        let bytes = self.input.get(at..).unwrap_or_default();
+        let frame = bytes.get(..layout.bytes()).unwrap_or_default();
+        let known = self
+            .frames()
+            .any(|(_, other)| other.last() == frame.last() && other == frame);
         if known {
             if self.repeats < 3 {
                 self.repeats += 1;
@@ -149,8 +157,10 @@ impl<'b> Chain<'b> {
             };
             self.distinct += 1;
         }
-        self.frames[self.passes] = (at, frame);
-        self.passes += 1;
+        if let Some(slot) = self.frames.get_mut(self.passes) {
+            *slot = (at as u32, frame.len() as u32);
+            self.passes += 1;
+        }
         let values = layout.glimpse(bytes);
         if self.status.is_some() && values.status != self.status {
             self.score += JUMPS;

@@ -163,11 +163,9 @@ impl Framer {
             true => EDGE,
             false => 0,
         };
-        let until = match until {
-            Until::Score(score) => Until::Score(score - bonus),
-            Until::Passes(_) => until,
-        };
-        chain(decoder, rest, 0, self.last, until).plus(bonus)
+        let mut own = Chain::new(rest, self.last, bonus);
+        follow(&mut own, decoder, rest, 0, until);
+        own
     }
 
     /// Whether a BUS frame can be trusted to come from the device that it names: the profile's,
@@ -251,8 +249,7 @@ fn is_late(decoder: &Decoder, rest: &[u8], shift: usize) -> bool {
         && passing(decoder, &rest[shift - 1..]).is_some()
 }
 
-/// Follows a phase to the first frame that fails after one that passes: what stands behind it
-/// may have slipped.
+/// The evidence for the phase that begins at `start`.
 fn chain<'b>(
     decoder: &Decoder,
     rest: &'b [u8],
@@ -260,7 +257,14 @@ fn chain<'b>(
     last: Option<Position>,
     until: Until,
 ) -> Chain<'b> {
-    let mut chain = Chain::new(last);
+    let mut chain = Chain::new(rest, last, 0);
+    follow(&mut chain, decoder, rest, start, until);
+    chain
+}
+
+/// Follows a phase to the first frame that fails after one that passes: what stands behind it
+/// may have slipped.
+fn follow(chain: &mut Chain<'_>, decoder: &Decoder, rest: &[u8], start: usize, until: Until) {
     let mut at = start;
     let mut fails = 0;
     for left in (1..=WINDOW as i32).rev() {
@@ -284,7 +288,7 @@ fn chain<'b>(
             }
         }
         if let Some(layout) = layout {
-            chain.add(layout, here, at, decoder.names(here[0]));
+            chain.add(layout, at, decoder.names(here[0]));
             at += layout.len / 8;
             continue;
         }
@@ -304,5 +308,4 @@ fn chain<'b>(
     if at == rest.len() && chain.passes > 0 {
         chain.score += EDGE;
     }
-    chain
 }

@@ -211,7 +211,9 @@ impl Resolved {
             }
             return;
         }
-        let Some(fast) = self.fast.as_deref().filter(|fast| fast.angle.exists()) else {
+        let alone = run.len() == len;
+        let fast = self.fast.as_deref();
+        let Some(fast) = fast.filter(|fast| fast.angle.exists() && !alone) else {
             for frame in run.chunks_exact(len) {
                 columns.push(self.position(Bits::of_bytes(frame).prefix(self.len)));
             }
