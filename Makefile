@@ -1,5 +1,5 @@
 # Everything that is missing is installed by the scripts; what they may not install they name.
-.PHONY: serve test fuzz dist pack docs fmt clean
+.PHONY: serve test bench fuzz dist pack docs fmt clean
 
 serve: dist
 	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
@@ -7,6 +7,10 @@ serve: dist
 
 test:
 	@tests/run.sh
+
+bench:
+	@tests/bench/run.sh $(if $(WRITE),--write)
+	@tests/bench/page/run.sh $(if $(WRITE),--write)
 
 fuzz:
 	@tests/fuzz/run.sh $(or $(TARGET),decode) $(or $(SECONDS),600)

@@ -69,7 +69,7 @@ wasm_cargo() {
   else
     # The library built above has no bitcode, which optimising across crates would need.
     PATH=/usr/bin:$PATH CARGO_BUILD_TARGET=$wasm_target CARGO_TARGET_DIR=$wasm_target_dir \
-      CARGO_PROFILE_WASM_LTO=off CARGO_PROFILE_ELEMENT_LTO=off /usr/bin/cargo "$@"
+      CARGO_PROFILE_WASM_LTO=off CARGO_PROFILE_SMALL_LTO=off /usr/bin/cargo "$@"
   fi
 }
 
@@ -81,6 +81,16 @@ if [ "$(wasm-bindgen --version 2>/dev/null)" != "wasm-bindgen $bindgen_version" 
   install_bindgen() { cargo install wasm-bindgen-cli --version "$bindgen_version" --root "$tools" "$@"; }
   # Registries serve some locked dependencies late; then newer ones do.
   install_bindgen --locked || install_bindgen
+fi
+
+split_version=0.2.4
+if ! wasm-split-cli --help >/dev/null 2>&1 || [ "$(cat "$tools/wasm-split-version" 2>/dev/null)" != $split_version ]; then
+  say "installing wasm-split-cli $split_version (a minute, once)"
+  install_split() {
+    cargo install wasm_split_cli_support --version $split_version --features build-binary --root "$tools" "$@"
+  }
+  install_split --locked || install_split
+  echo $split_version >"$tools/wasm-split-version"
 fi
 
 if [ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modules/.package-lock.json ]; then

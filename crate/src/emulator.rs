@@ -61,6 +61,8 @@ pub struct Emulator {
     pub noise: u32,
     /// What goes wrong on the way.
     pub faults: Faults,
+    /// Microseconds between the frames of a stream; those of the manual where it is nothing.
+    pub interval: Option<Micros>,
     /// The status bits; those of the battery are added.
     pub status: u8,
     /// The position is not valid.
@@ -104,6 +106,7 @@ impl Emulator {
             shaft,
             noise: 0,
             faults: Faults::default(),
+            interval: None,
             status: 0,
             error: false,
             warning: false,
@@ -327,9 +330,10 @@ impl Emulator {
     /// Sends the frames of a stream that begin by `now`.
     fn stream(&mut self, now: Micros) {
         self.settle(now);
-        let Some(interval) = self.profile().format.interval() else {
+        let Some(usual) = self.profile().format.interval() else {
             return;
         };
+        let interval = self.interval.unwrap_or(usual).max(1);
         // A stream that was held up does not catch up for longer than this.
         let oldest = now.saturating_sub(CATCH_UP);
         let mut next = self.next_frame.unwrap_or(now).max(oldest);

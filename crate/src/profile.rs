@@ -9,7 +9,7 @@ mod parameter;
 pub(crate) use choice::choice;
 pub use choice::{Align, Choice, Code, Dialect, Justify, Marker, Parity, StatusActive, TurnsCode};
 
-use parameter::PARAMETERS;
+use parameter::{PARAMETERS, setter};
 
 use crate::{
     format::{
@@ -255,11 +255,8 @@ impl Profile {
     }
 
     fn set(&mut self, name: &str, value: &str) -> Result<(), ProfileError> {
-        let parameter = PARAMETERS
-            .iter()
-            .find(|parameter| parameter.name == name)
-            .ok_or_else(|| error(name, "is no parameter of a profile"))?;
-        (parameter.set)(self, value).map_err(|message| error(name, message))
+        let set = setter(name).ok_or_else(|| error(name, "is no parameter of a profile"))?;
+        set(self, value).map_err(|message| error(name, message))
     }
 
     /// The words that a parameter can be; none for a number.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The npm package as a stranger installs it, the custom element in bare pages, and the documents
-# that use it.
+# The npm package as a stranger installs it, the custom element in bare pages, the documents that
+# use it, and the benches in short.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 web/package.sh
@@ -38,3 +38,7 @@ npx tsc -p "$PROJECT"
 
 say "the custom element, in Chromium"
 npx playwright test --config tests/package/playwright.config.js ${missing:+--grep-invert "$missing"} "$@"
+
+say "the benches, in short"
+BENCH_MEGABYTES=0.5 BENCH_ROUNDS=1 BENCH_SECONDS=0.05 tests/bench/run.sh | tee "$PROJECT/bench"
+for row in period t485 asi1 biss-c; do grep -q "^| \`$row\`" "$PROJECT/bench"; done

@@ -2,7 +2,7 @@
 import { execFileSync, spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 
-const binary = new URL('../../target/debug/pty-encoder', import.meta.url).pathname;
+const binary = process.env.PTY_ENCODER ?? new URL('../../target/debug/pty-encoder', import.meta.url).pathname;
 const port = '/dev/ttyS0';
 
 /** Puts something over the port that is no serial line; returns what takes it away again. */

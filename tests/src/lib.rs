@@ -3,6 +3,7 @@
 pub mod captures;
 pub mod fuzz;
 pub mod golden;
+pub mod workload;
 
 use encoderscope::{
     decode::{Decoded, Decoder},

@@ -129,7 +129,7 @@ fn reading_equal_lines_allocates_nothing() {
         let found = allocations(|| {
             let mut readings = 0;
             for chunk in bytes.chunks(CHUNK) {
-                words.push_runs(chunk, &mut |run| columns.take(&run));
+                words.push_runs(&decoder, chunk, &mut |run| columns.take(&run));
                 readings += columns.len();
                 columns.clear();
             }

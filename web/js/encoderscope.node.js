@@ -1,7 +1,16 @@
 // The JavaScript module in Node, whose fetch reads no files.
 import { readFile } from 'node:fs/promises';
-import init, { decode, detect, encode, explain, formats, parseModel } from '../pkg/encoderscope.js';
+import init, {
+  ColumnReader,
+  decode,
+  decodeColumns,
+  detect,
+  encode,
+  explain,
+  formats,
+  parseModel,
+} from '../pkg/encoderscope.js';
 
 await init({ module_or_path: await readFile(new URL('../pkg/encoderscope_bg.wasm', import.meta.url)) });
 
-export { decode, detect, encode, explain, formats, parseModel };
+export { ColumnReader, decode, decodeColumns, detect, encode, explain, formats, parseModel };

@@ -2,5 +2,5 @@
 import init, { serve, serveDesk } from '../pkg/encoderscope.js';
 
 await init();
-if (self.name === 'desk') serveDesk();
-else serve();
+if (self.name === 'desk') serveDesk(self);
+else serve(self);

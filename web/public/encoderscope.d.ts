@@ -142,6 +142,48 @@ export function formats(): FormatInfo[];
 /** Decodes pasted text. Throws only when the profile is wrong. */
 export function decode(profile: Profile, text: string): Decoded;
 
+/** Readings of good frames, a number after the other; the same index is the same frame. */
+export interface Columns {
+  /** Counts within one turn; the lowest bits of more than 53 are lost. */
+  angle: Float64Array;
+  /** Whole turns; 0 where the encoder counts none. */
+  turns: Float64Array;
+  /** The status bits; 0 where the frame has none. */
+  status: Uint8Array;
+  /** What the encoder says of the position: 0 good, 1 warning, 2 error, 3 both. */
+  health: Uint8Array;
+  /** Where they stand in a stream of bytes: `frames` frames of `len` bytes each, the first at `start`. */
+  runs: { start: Float64Array; len: Uint32Array; frames: Uint32Array };
+  /** Counts since the reader was made; what is in no frame is skipped. */
+  summary: { bytes: number; frames: number; bad: number; skipped: number };
+}
+
+/**
+ * Decodes bytes as they came, or text as it was pasted, into columns: much faster than `decode`,
+ * which makes an object for each frame. Bytes of clocked formats are words, each of as many whole
+ * bytes as a frame needs. Throws only when the profile is wrong.
+ */
+export function decodeColumns(profile: Profile, input: Uint8Array | string): Columns;
+
+/** Decodes input that comes in pieces, of any length together, into columns. */
+export class ColumnReader {
+  constructor(profile: Profile);
+  /** Decodes more bytes, cut anywhere; of clocked formats whole words. */
+  push(bytes: Uint8Array): void;
+  /** Takes more of a pasted text, cut anywhere; what is in it is decoded when it ends. */
+  pushText(text: string): void;
+  /** The input has ended; decodes what is left. What is pushed then is another input. */
+  finish(): void;
+  /** How many readings there are to take. */
+  readonly length: number;
+  /** Hands the readings over, and forgets them. */
+  take(): Columns;
+  /** Forgets the readings. */
+  clear(): void;
+  /** Gives its memory back; it is of no use then. */
+  free(): void;
+}
+
 /** A profile that the text may be, with how sure that is and why. */
 export interface Candidate extends Profile {
   verdict: 'certain' | 'likely' | 'ambiguous' | 'unlikely';

@@ -15,6 +15,29 @@ extern "C" {
     fn clear_timeout(id: f64);
 }
 
+#[wasm_bindgen]
+extern "C" {
+    /// The other end of a conversation: a worker, the page of a worker, or the end of a channel.
+    #[derive(Clone, Debug)]
+    pub type Peer;
+    /// Says something.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be copied.
+    #[wasm_bindgen(method, catch, js_name = postMessage)]
+    pub fn post(this: &Peer, message: &JsValue) -> Result<(), JsValue>;
+    /// Hears what is said, as the `data` of a message event.
+    #[wasm_bindgen(method, setter, js_name = onmessage)]
+    pub fn set_heard(this: &Peer, listener: Option<&Function>);
+    /// Hears of a breakdown.
+    #[wasm_bindgen(method, setter, js_name = onerror)]
+    pub fn set_broken(this: &Peer, listener: Option<&Function>);
+    /// Ends the other end.
+    #[wasm_bindgen(method)]
+    pub fn terminate(this: &Peer);
+}
+
 /// Microseconds since the worker or page was made.
 #[must_use]
 pub fn now() -> Micros {

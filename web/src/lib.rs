@@ -1,8 +1,9 @@
 //! The page, its serial worker and the JavaScript module, as far as they share code.
 //!
-//! Three WASM files are made from this package: `page` is the Leptos front end; `module` has no
-//! Leptos in it and serves the worker and the JavaScript module; `element`, the small one of the
-//! custom element, uses the core alone.
+//! Three programs are made from this package: `page` is the Leptos front end, whose WASM the build
+//! splits into the first view and the parts that come when they are wanted (`bin/page/parts.rs`);
+//! `module` has no Leptos in it and serves the workers and the JavaScript module; `element`, the
+//! small one of the custom element, uses the core alone.
 #![cfg(feature = "app")]
 
 pub mod browser;

@@ -17,15 +17,14 @@ type Sink<'s> = dyn FnMut(Piece<'_>) + 's;
 /// use encoderscope::{columns::Columns, decode::{Decoder, Words}, profile::Profile};
 /// let profile = [("format", "biss-c"), ("angle-bits", "17"), ("turns-bits", "0")];
 /// let decoder = Decoder::new(Profile::parse(profile)?)?;
-/// let stored = [0x82, 0x40, 0x00, 0x60, 0x36].repeat(1000);
+/// let stored = [0x82, 0x40, 0x00, 0x60, 0x10].repeat(1000);
 /// let (mut words, mut columns) = (Words::new(&decoder, 40, &stored), Columns::default());
-/// words.push_runs(&stored, &mut |run| columns.take(&run));
+/// words.push_runs(&decoder, &stored, &mut |run| columns.take(&run));
 /// assert_eq!(columns.angle, [0x8000; 1000]);
 /// # Ok::<(), encoderscope::profile::ProfileError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Words<'d> {
-    decoder: &'d Decoder,
+pub struct Words {
     lines: Lines,
     /// The begun line.
     begun: Vec<u8>,
@@ -33,18 +32,17 @@ pub struct Words<'d> {
     at: u64,
 }
 
-impl<'d> Words<'d> {
+impl Words {
     /// Lines of `bits` bits each. What stands around the data in them is decided once, from the
     /// first ones in `head`; then it does not matter how they are cut.
     #[must_use]
-    pub fn new(decoder: &'d Decoder, bits: usize, head: &[u8]) -> Self {
+    pub fn new(decoder: &Decoder, bits: usize, head: &[u8]) -> Self {
         let bits = bits.max(1);
         let mut kept = Kept::new();
         let lines = head.chunks_exact(bits.div_ceil(8)).take(ENOUGH_LINES);
         let lines = lines.map(|line| Bits::of_bytes(line).prefix(bits));
         let shape = decoder.likeliest(&mut kept, lines);
         Self {
-            decoder,
             lines: Lines { bits, shape, kept },
             begun: Vec::new(),
             at: 0,
@@ -52,7 +50,7 @@ impl<'d> Words<'d> {
     }
 
     /// Takes more input; good frames that follow one another come as one piece.
-    pub fn push_runs(&mut self, mut bytes: &[u8], sink: &mut Sink<'_>) {
+    pub fn push_runs(&mut self, decoder: &Decoder, mut bytes: &[u8], sink: &mut Sink<'_>) {
         let len = self.lines.bits.div_ceil(8);
         if !self.begun.is_empty() {
             let (end, rest) = bytes.split_at(bytes.len().min(len - self.begun.len()));
@@ -61,12 +59,12 @@ impl<'d> Words<'d> {
             if self.begun.len() < len {
                 return;
             }
-            self.lines.run(self.decoder, &self.begun, self.at, sink);
+            self.lines.run(decoder, &self.begun, self.at, sink);
             self.at += len as u64;
             self.begun.clear();
         }
         let (whole, begun) = bytes.split_at(bytes.len() / len * len);
-        self.lines.run(self.decoder, whole, self.at, sink);
+        self.lines.run(decoder, whole, self.at, sink);
         self.at += whole.len() as u64;
         self.begun.extend_from_slice(begun);
     }

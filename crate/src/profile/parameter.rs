@@ -24,14 +24,48 @@ pub(super) struct Parameter {
     pub(super) words: &'static [&'static str],
     pub(super) docs: &'static [&'static str],
     pub(super) show: fn(&Profile) -> Value,
-    pub(super) set: fn(&mut Profile, &str) -> Result<(), String>,
+}
+
+/// Reads a text into its place in a profile.
+pub(super) type Setter = fn(&mut Profile, &str) -> Result<(), String>;
+
+/// Makes the table and the readers from the same rows. They are apart because whoever only writes
+/// a profile, such as the first view of a page, needs none of what reading takes.
+macro_rules! parameters {
+    ($(Parameter {
+        name: $name:literal,
+        doc: $doc:expr,
+        words: $words:expr,
+        docs: $docs:expr,
+        show: $show:expr,
+        set: $set:expr,
+    }),* $(,)?) => {
+        pub(super) const PARAMETERS: &[Parameter] = &[$(Parameter {
+            name: $name,
+            doc: $doc,
+            words: $words,
+            docs: $docs,
+            show: $show,
+        }),*];
+
+        /// What reads the parameter of a name.
+        pub(super) fn setter(name: &str) -> Option<Setter> {
+            match name {
+                $($name => {
+                    let set: Setter = $set;
+                    Some(set)
+                })*
+                _ => None,
+            }
+        }
+    };
 }
 
 const fn listed(texts: &'static [&'static str]) -> &'static [&'static str] {
     if cfg!(feature = "small") { &[] } else { texts }
 }
 
-pub(super) const PARAMETERS: &[Parameter] = &[
+parameters! {
     Parameter {
         name: "layout",
         doc: said("a layout of one's own, or the name of one that comes with the program"),
@@ -178,7 +212,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         show: |p| p.justify.word().into(),
         set: |p, text| chosen(text).map(|value| p.justify = value),
     },
-];
+}
 
 fn chosen<T: Choice>(text: &str) -> Result<T, String> {
     T::of_word(text)

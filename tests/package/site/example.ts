@@ -1,6 +1,8 @@
 // Compiled, not run: the types say what the functions take and give.
 import {
+  ColumnReader,
   decode,
+  decodeColumns,
   detect,
   encode,
   explain,
@@ -24,6 +26,12 @@ export const names: Format[] = formats().map((known) => known.format);
 export const again: Profile[] = formats().map((known) => known.profile);
 export const series: string = parseModel('MPP-40-60-A-23BM-T-N-A-M').series;
 
+export const angles: Float64Array = decodeColumns(profile, '1a 20').angle;
+const reader = new ColumnReader(profile);
+reader.push(new Uint8Array([0x1a, 0x20]));
+reader.finish();
+export const bad: number = reader.take().summary.bad;
+
 // @ts-expect-error: parameters are written in camelCase
 decode({ format: 't485', 'angle-bits': 23 }, '');
 // @ts-expect-error: there is no such format
@@ -34,6 +42,9 @@ decode(profile, [0x1a, 0x20]);
 export const angle = best?.angle;
 // @ts-expect-error: a quantity may be missing
 export const sure: number = decode(profile, '').frames[0]!.angle;
+
+// @ts-expect-error: bytes are bytes
+decodeColumns(profile, [0x1a, 0x20]);
 
 const element: EncoderFrame = document.createElement('encoder-frame');
 element.addEventListener('change', (event) => {

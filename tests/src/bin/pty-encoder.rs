@@ -7,7 +7,8 @@
 //! (with a zero input of the IP-75 at 0 V), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
 //! replies). `exclusive=0` lets another program open the pty, as the last close of a real port does;
-//! this one is held open here. `device=ADDRESS` puts another encoder on the BUS; settings behind it
+//! this one is held open here. `interval=MICROSECONDS` lets a stream send so often, and `patient=1`
+//! lets its bytes wait for a reader. `device=ADDRESS` puts another encoder on the BUS; settings behind it
 //! are for that one. The adapter runs at the baud rate that the browser has asked for: at another
 //! rate than the encoder's both sides hear what a UART makes of it. The end of standard input pulls the plug. What a stream sends while nobody reads is
 //! lost.
@@ -65,7 +66,21 @@ mod native {
         tcsetattr(&slave, OptionalActions::Now, &raw)?;
         println!("{}", path.to_str()?);
         std::io::stdout().flush()?;
-        serve(&mut line, &master, &slave)
+        serve(&mut line, &master, &slave, patience(&settings))
+    }
+
+    /// What becomes of bytes that nobody reads.
+    #[derive(Clone, Copy, PartialEq, Eq)]
+    enum Unread {
+        Lost,
+        Waits,
+    }
+
+    fn patience(settings: &[String]) -> Unread {
+        match settings.iter().any(|setting| setting == "patient=1") {
+            true => Unread::Waits,
+            false => Unread::Lost,
+        }
     }
 
     type Arguments = (Vec<(String, String)>, Vec<String>);
@@ -103,6 +118,8 @@ mod native {
         match name {
             "turning" => emulator.shaft = Shaft::turning(emulator.shaft.start, value.parse()?),
             "still" => emulator.shaft = Shaft::still(value.parse()?),
+            "interval" => emulator.interval = Some(value.parse()?),
+            "patient" => {}
             "noise" => emulator.noise = value.parse()?,
             "status" => emulator.status = value.parse()?,
             "error" => emulator.error = value == "1",
@@ -128,7 +145,12 @@ mod native {
         Ok(())
     }
 
-    fn serve(line: &mut Bus, master: &OwnedFd, slave: &OwnedFd) -> Result<(), Box<dyn Error>> {
+    fn serve(
+        line: &mut Bus,
+        master: &OwnedFd,
+        slave: &OwnedFd,
+        unread: Unread,
+    ) -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let stdin = std::io::stdin();
         let mut buffer = [0; 4096];
@@ -139,9 +161,11 @@ mod native {
             for device in &mut line.devices {
                 device.faults.rate = Some(rate).filter(|rate| *rate != device.profile().baud);
             }
+            let mut output = Vec::new();
             while let Some(bytes) = line.poll_output(now) {
-                write_all(master, &bytes)?;
+                output.extend(bytes);
             }
+            write_all(master, &output, unread)?;
             let wait = line
                 .deadline()
                 .map_or(100_000, |due| due.saturating_sub(now));
@@ -182,11 +206,23 @@ mod native {
         }
     }
 
-    fn write_all(master: &OwnedFd, mut bytes: &[u8]) -> Result<(), Errno> {
+    fn write_all(master: &OwnedFd, mut bytes: &[u8], unread: Unread) -> Result<(), Errno> {
         while !bytes.is_empty() {
             match write(master, bytes) {
                 Ok(count) => bytes = &bytes[count..],
-                Err(Errno::AGAIN) => return Ok(()),
+                Err(Errno::AGAIN) if unread == Unread::Lost => return Ok(()),
+                Err(Errno::AGAIN) => {
+                    let stdin = std::io::stdin();
+                    let mut ready = [
+                        PollFd::new(master, PollFlags::OUT),
+                        PollFd::new(&stdin, PollFlags::IN),
+                    ];
+                    poll(&mut ready, None)?;
+                    // Being unplugged or told something comes first.
+                    if !ready[1].revents().is_empty() {
+                        return Ok(());
+                    }
+                }
                 Err(error) => return Err(error),
             }
         }

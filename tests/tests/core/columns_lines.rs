@@ -151,7 +151,7 @@ fn columns_hold_what_the_lines_say() {
                 while !rest.is_empty() {
                     let size = (1 + random.below(3_000) as usize).min(rest.len());
                     let (cut, behind) = rest.split_at(size);
-                    words.push_runs(cut, &mut |run| columns.take(&run));
+                    words.push_runs(&decoder, cut, &mut |run| columns.take(&run));
                     rest = behind;
                 }
                 words.finish_runs(&mut |_| panic!("nothing is left"));
@@ -201,14 +201,14 @@ fn every_line_is_in_one_piece_and_good_ones_come_together() {
         }
     };
     let mut words = Words::new(&decoder, 64, &bytes);
-    words.push_runs(&bytes, &mut take);
+    words.push_runs(&decoder, &bytes, &mut take);
     words.finish_runs(&mut take);
     assert_eq!(at, bytes.len() as u64);
     assert!(longest > 50, "{longest}");
 
     let mut words = Words::new(&decoder, 64, &bytes);
     let mut last = Vec::new();
-    words.push_runs(&bytes[..19], &mut |_| {});
+    words.push_runs(&decoder, &bytes[..19], &mut |_| {});
     words.finish_runs(&mut |piece| {
         let PieceKind::Skip(why) = piece.kind else {
             panic!("a frame");

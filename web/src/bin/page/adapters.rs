@@ -51,6 +51,11 @@ pub(crate) fn remember(port: PortId, encoder: &Profile) {
     write(port, "profile", &query(encoder));
 }
 
+/// Whether an encoder was behind a port.
+pub(crate) fn is_known(port: PortId) -> bool {
+    read(port, "profile").is_some()
+}
+
 /// The encoder that was behind a port last.
 pub(crate) fn recall(port: PortId) -> Option<Profile> {
     profile(&read(port, "profile")?).ok()

@@ -4,12 +4,9 @@ use crate::{
     Workers, adapters,
     connection::Connection,
     console::Console,
-    decode::Decode,
-    desk::Desk,
-    explain::{Explain, Paper},
+    parts::{self, coming, later},
     plot::Feed,
     ports::Obstacle,
-    reference::{Book, Reference},
     theme::ThemeSwitch,
 };
 use encoderscope::{format::Format, profile::Profile};
@@ -62,6 +59,15 @@ impl Area {
     }
 }
 
+/// How an area takes part in links, once its code is there.
+#[derive(Clone, Copy)]
+pub(crate) struct Place {
+    /// Shows what a link says.
+    pub(crate) follow: Callback<Fragment>,
+    /// The fragment that leads back.
+    pub(crate) fragment: Signal<String>,
+}
+
 /// State that the areas share.
 #[derive(Clone, Copy)]
 pub(crate) struct App {
@@ -83,12 +89,16 @@ pub(crate) struct App {
     pub(crate) any_rate: RwSignal<bool>,
     /// Why there is no port.
     pub(crate) obstacle: RwSignal<Option<Obstacle>>,
-    /// The decode area's end of its worker.
-    pub(crate) desk: Desk,
-    /// The frame of the explainer.
-    pub(crate) paper: Paper,
-    /// Where the reference is open.
-    pub(crate) book: Book,
+    /// Makes workers and charts.
+    pub(crate) workers: StoredValue<Workers, LocalStorage>,
+    /// The last link that was followed.
+    link: RwSignal<Fragment>,
+    /// The profile of the link is on its way.
+    pub(crate) reads_link: RwSignal<bool>,
+    /// What the open area makes of links.
+    place: RwSignal<Option<Place>>,
+    /// Owns what areas keep.
+    owner: StoredValue<Owner>,
     /// The worker has broken down, and an engine on the page has taken over.
     broken: RwSignal<bool>,
     /// A port was plugged in a moment ago.
@@ -101,7 +111,8 @@ impl App {
         let snapshot = RwSignal::new(Snapshot::default());
         let feed = Feed::new();
         let broken = RwSignal::new(false);
-        let connection = Connection::new(workers.engine().ok(), snapshot, feed, broken);
+        let workers = StoredValue::new_local(workers);
+        let connection = Connection::new(workers, snapshot, feed, broken);
         Self {
             area: RwSignal::new(Area::Console),
             profile: RwSignal::new(Format::T485.default_profile()),
@@ -115,13 +126,32 @@ impl App {
             pace: RwSignal::new(0.0),
             any_rate: RwSignal::new(false),
             obstacle: RwSignal::new(None),
-            desk: Desk::new(workers),
-            paper: Paper::new(),
-            book: Book::new(),
+            workers,
+            link: RwSignal::new(Fragment::default()),
+            reads_link: RwSignal::new(false),
+            place: RwSignal::new(None),
+            owner: StoredValue::new(Owner::current().unwrap_or_default()),
             broken,
             just_plugged: RwSignal::new(false),
             connection: StoredValue::new_local(connection),
         }
+    }
+
+    /// What an area keeps while another one is shown; made when it is first wanted.
+    pub(crate) fn keep<T: Clone + Send + Sync + 'static>(self, make: impl FnOnce() -> T) -> T {
+        self.owner.get_value().with(|| {
+            use_context().unwrap_or_else(|| {
+                let made = make();
+                provide_context(made.clone());
+                made
+            })
+        })
+    }
+
+    /// The area that is shown takes part in links from now on.
+    pub(crate) fn settle(self, place: Place) {
+        self.place.set(Some(place));
+        place.follow.run(self.link.get_untracked());
     }
 
     /// Speaks to the engine.
@@ -204,53 +234,71 @@ impl App {
         }
     }
 
-    fn follow_link(self, text: &str) {
-        let fragment = Fragment::parse(text);
-        let area = Area::ALL
-            .into_iter()
-            .find(|area| area.name() == fragment.area);
-        let area = area.unwrap_or(Area::Console);
-        if self.area.get_untracked() != area {
-            self.area.set(area);
-        }
-        let is_filled = area == Area::Reference && Book::is_filled(&fragment);
-        match fragment.profile().filter(|_| !is_filled) {
+    /// Takes over the profile of a link, where there is one.
+    pub(crate) fn follow_profile_of(self, link: &Fragment) {
+        match link.profile() {
             Some(Ok(profile)) => self.change_profile(profile),
             Some(Err(error)) => self
                 .link_fault
                 .set(Some(format!("The link is not right: {error}."))),
             None => {}
         }
-        match area {
-            Area::Explain => {
-                let profile = self.profile.get_untracked();
-                self.paper.follow_link(&fragment, profile);
+    }
+
+    fn follow_link(self, text: &str) {
+        let fragment = Fragment::parse(text);
+        let area = Area::ALL
+            .into_iter()
+            .find(|area| area.name() == fragment.area);
+        let area = area.unwrap_or(Area::Console);
+        self.link.set(fragment.clone());
+        let moves = self.area.get_untracked() != area;
+        if moves {
+            self.place.set(None);
+            self.area.set(area);
+        }
+        match (area, self.place.get_untracked()) {
+            (Area::Console, _) if fragment.parameters.is_empty() => {}
+            (Area::Console, _) => self.follow_console(fragment),
+            (_, Some(place)) if !moves => place.follow.run(fragment),
+            // The area follows it when its code is there.
+            _ => {}
+        }
+    }
+
+    /// Reading a profile takes more code than the first view has.
+    fn follow_console(self, link: Fragment) {
+        self.reads_link.set(true);
+        leptos::task::spawn_local(async move {
+            if parts::profile_of(self, link).await.is_err() {
+                self.link_fault
+                    .set(Some("The link cannot be read without the network.".into()));
             }
-            Area::Reference => self.book.follow_link(&fragment),
-            Area::Console | Area::Decode => self.desk.follow_link(&fragment),
+            self.reads_link.set(false);
+        });
+    }
+
+    /// Whether a link is the one that was followed last.
+    pub(crate) fn is_here(self, link: &Fragment) -> bool {
+        self.link.with_untracked(|last| last == link)
+    }
+
+    /// The fragment that leads back here; none while the code of the area is on its way.
+    fn fragment(&self) -> Option<String> {
+        match self.area.get() {
+            Area::Console if self.reads_link.get() => None,
+            Area::Console => Some(format!("#/console?{}", query(&self.profile.get()))),
+            _ => self.place.get().map(|place| place.fragment.get()),
         }
     }
 
-    /// The fragment that leads back here.
-    pub(crate) fn fragment(&self) -> String {
-        let area = self.area.get();
-        let mut text = format!("#/{}?{}", area.name(), query(&self.profile.get()));
-        match area {
-            Area::Console => {}
-            Area::Decode => text += &self.desk.fragment(),
-            Area::Explain => text += &self.paper.fragment(),
-            Area::Reference => text = self.book.fragment(&self.profile.get()),
-        }
-        text
-    }
-}
-
-impl App {
     /// The whole address that leads back here.
     pub(crate) fn address(&self) -> String {
         let address = window().location().href().unwrap_or_default();
-        let page = address.split('#').next().unwrap_or_default().to_owned();
-        page + &self.fragment()
+        match self.fragment() {
+            Some(fragment) => address.split('#').next().unwrap_or_default().to_owned() + &fragment,
+            None => address,
+        }
     }
 }
 
@@ -284,21 +332,21 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
         hide.remove();
     });
     Effect::new(move || {
-        let fragment = app.fragment();
-        if let Ok(history) = window().history() {
+        if let (Some(fragment), Ok(history)) = (app.fragment(), window().history()) {
             // Where it fails the link in the address bar is only out of date.
             let _ =
                 history.replace_state_with_url(&wasm_bindgen::JsValue::NULL, "", Some(&fragment));
         }
     });
     serial::on_plugged(move || app.plugged());
-    let bare = Fragment::parse(&location_hash()).profile().is_none();
+    let bare = Fragment::parse(&location_hash()).parameters.is_empty();
     leptos::task::spawn_local(async move {
         app.refresh_ports().await;
         if let ([only], true) = (&app.ports.get_untracked()[..], bare)
-            && let Some(profile) = adapters::recall(*only)
+            && adapters::is_known(*only)
         {
-            app.change_profile(profile);
+            // Without the network the encoder's settings are as good as new.
+            let _ = parts::recall(app, *only).await;
         }
     });
 
@@ -337,9 +385,9 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
             }}
             {move || match app.area.get() {
                 Area::Console => view! { <Console /> }.into_any(),
-                Area::Decode => view! { <Decode /> }.into_any(),
-                Area::Explain => view! { <Explain /> }.into_any(),
-                Area::Reference => view! { <Reference /> }.into_any(),
+                Area::Decode => later(parts::decode, coming).into_any(),
+                Area::Explain => later(parts::explain, coming).into_any(),
+                Area::Reference => later(parts::reference, coming).into_any(),
             }}
         </main>
     }

@@ -1,87 +1,102 @@
 //! The page's end of the engine: a dedicated worker where it can reach serial ports, else an
 //! engine on the page itself.
 
-use crate::plot::Feed;
+use crate::{Workers, plot::Feed};
 use encoderscope_web::{
-    engine::Engine,
+    browser::Peer,
     message::{FromEngine, Snapshot, ToEngine},
     serial,
 };
 use leptos::prelude::*;
 use std::{cell::RefCell, rc::Rc};
 use wasm_bindgen::{JsCast, prelude::Closure};
-use web_sys::{MessageEvent, Worker};
+use web_sys::MessageEvent;
 
 /// Sends messages to the engine; clones share one engine.
 #[derive(Clone)]
 pub(crate) struct Connection {
     inner: Rc<RefCell<Inner>>,
+    workers: StoredValue<Workers, LocalStorage>,
+    snapshot: RwSignal<Snapshot>,
     feed: Feed,
 }
 
 struct Inner {
-    worker: Option<Worker>,
-    /// Made when the worker turns out to be of no use.
-    local: Option<Engine>,
-    /// Whether the worker has said what it can do.
-    known: bool,
-    waiting: Vec<ToEngine>,
+    /// Nothing while an engine on the page is made.
+    engine: Option<Peer>,
+    /// Where the engine runs.
+    seat: Seat,
+    /// What was said before the engine ran; nothing from then on.
+    waiting: Option<Vec<ToEngine>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Seat {
+    Worker,
+    Page,
 }
 
 impl Connection {
-    /// Listens to the worker, where there is one; snapshots go into `snapshot`, answers to the plot into `feed`.
-    /// A worker that breaks down is replaced by an engine on the page, and `broken` is set.
+    /// Starts the engine in a worker, where there are workers; snapshots go into `snapshot`, answers
+    /// to the plot into `feed`. A worker that breaks down is replaced by an engine on the page, and
+    /// `broken` is set.
     pub(crate) fn new(
-        worker: Option<Worker>,
+        workers: StoredValue<Workers, LocalStorage>,
         snapshot: RwSignal<Snapshot>,
         feed: Feed,
         broken: RwSignal<bool>,
     ) -> Self {
+        let worker = workers.with_value(|workers| workers.engine().ok());
         let connection = Self {
             inner: Rc::new(RefCell::new(Inner {
-                worker: worker.clone(),
-                local: None,
-                known: false,
-                waiting: Vec::new(),
+                engine: worker.clone(),
+                seat: Seat::Worker,
+                waiting: Some(Vec::new()),
             })),
+            workers,
+            snapshot,
             feed,
         };
         match worker {
-            Some(worker) => connection.listen(&worker, snapshot, broken),
-            None => connection.run_here(snapshot),
+            Some(worker) => {
+                connection.listen(&worker);
+                let moved = connection.clone();
+                let on_error = Closure::<dyn FnMut()>::new(move || {
+                    moved.run_here();
+                    broken.set(true);
+                });
+                worker.set_broken(Some(on_error.as_ref().unchecked_ref()));
+                on_error.forget();
+            }
+            None => connection.run_here(),
         }
         connection
     }
 
-    fn listen(&self, worker: &Worker, snapshot: RwSignal<Snapshot>, broken: RwSignal<bool>) {
+    fn listen(&self, engine: &Peer) {
         let connection = self.clone();
         let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
             if let Ok(message) = serde_wasm_bindgen::from_value::<FromEngine>(event.data()) {
-                connection.receive(message, snapshot);
+                connection.receive(message);
             }
         });
-        worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
+        engine.set_heard(Some(on_message.as_ref().unchecked_ref()));
         on_message.forget();
-        let connection = self.clone();
-        let on_error = Closure::<dyn FnMut()>::new(move || {
-            connection.run_here(snapshot);
-            broken.set(true);
-        });
-        worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
-        on_error.forget();
     }
 
-    fn receive(&self, message: FromEngine, snapshot: RwSignal<Snapshot>) {
+    fn receive(&self, message: FromEngine) {
         match message {
             // Where the page could reach a port and the worker cannot, the engine runs here.
-            FromEngine::Hello { serial: false } if serial::available().is_ok() => {
-                self.run_here(snapshot);
+            FromEngine::Hello { serial: false }
+                if serial::available().is_ok() && self.inner.borrow().seat == Seat::Worker =>
+            {
+                self.run_here();
             }
             FromEngine::Hello { .. } => self.ready(),
             FromEngine::Plot(plot) => self.feed.plot.set(*plot),
             FromEngine::Rest(rest) => self.feed.rest.set(rest.map(|rest| *rest)),
             FromEngine::Snapshot(new) => {
-                snapshot.set(*new);
+                self.snapshot.set(*new);
                 // The next one is wanted when this one has been drawn.
                 let connection = self.clone();
                 request_animation_frame(move || connection.send(ToEngine::Next));
@@ -89,30 +104,30 @@ impl Connection {
         }
     }
 
-    fn run_here(&self, snapshot: RwSignal<Snapshot>) {
-        let connection = self.clone();
-        let engine = Engine::new(move |message| {
-            let connection = connection.clone();
-            // The engine must have finished its step before it is spoken to again.
-            leptos::task::spawn_local(async move { connection.receive(message, snapshot) });
-        });
+    fn run_here(&self) {
         {
             let mut inner = self.inner.borrow_mut();
-            if let Some(worker) = inner.worker.take() {
+            if let Some(worker) = inner.engine.take() {
                 worker.terminate();
             }
-            inner.local = Some(engine);
+            inner.seat = Seat::Page;
+            inner.waiting.get_or_insert_default();
         }
-        self.ready();
+        let connection = self.clone();
+        leptos::task::spawn_local(async move {
+            let workers = connection.workers.get_value();
+            // Without the code there is no engine; the page has said what it cannot do.
+            if let Ok(engine) = workers.engine_here().await {
+                let engine: Peer = engine.unchecked_into();
+                connection.listen(&engine);
+                connection.inner.borrow_mut().engine = Some(engine);
+            }
+        });
     }
 
     fn ready(&self) {
-        let waiting = {
-            let mut inner = self.inner.borrow_mut();
-            inner.known = true;
-            std::mem::take(&mut inner.waiting)
-        };
-        for message in waiting {
+        let waiting = self.inner.borrow_mut().waiting.take();
+        for message in waiting.unwrap_or_default() {
             self.send(message);
         }
     }
@@ -120,15 +135,13 @@ impl Connection {
     /// Sends a message; before the engine runs, it is kept.
     pub(crate) fn send(&self, message: ToEngine) {
         let mut inner = self.inner.borrow_mut();
-        if !inner.known {
-            inner.waiting.push(message);
-        } else if let Some(engine) = &inner.local {
-            engine.handle(message);
-        } else if let Some(worker) = &inner.worker
+        if let Some(waiting) = &mut inner.waiting {
+            waiting.push(message);
+        } else if let Some(engine) = &inner.engine
             && let Ok(message) = serde_wasm_bindgen::to_value(&message)
         {
             // A worker that is gone has reported its error already.
-            let _ = worker.post_message(&message);
+            let _ = engine.post(&message);
         }
     }
 }

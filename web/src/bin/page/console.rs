@@ -7,9 +7,9 @@ use crate::{
     link_panel::LinkPanel,
     live::{Angle, Status},
     log::Frames,
+    parts::{self, coming, later},
     plot::PlotPanel,
     ports::Obstacle,
-    profile_editor::{Offer, ProfileEditor},
     setting::SettingPanel,
     standstill::Standstill,
     zero_wire::ZeroWire,
@@ -20,24 +20,46 @@ use leptos::prelude::*;
 #[component]
 pub(crate) fn Console() -> impl IntoView {
     let app = expect_context::<App>();
-    let preview = move || app.source.get() == Source::Preview;
+    let preview = Memo::new(move |_| app.source.get() == Source::Preview);
     view! {
         <div class="console">
-            {move || match preview() {
-                true => view! { <Welcome /> }.into_any(),
-                false => view! { <LinkPanel /> }.into_any(),
+            {move || match preview.get() {
+                true => view! { <Preview /> }.into_any(),
+                false => later(parts::live, Preview).into_any(),
             }}
-            <div class="stage">
-                {move || (!preview()).then(|| view! { <SearchPanel /> })}
-                <Angle />
-                <div class="side">
-                    <Status />
-                    {move || (!preview()).then(|| view! { <SettingPanel /> <ZeroWire /> })}
-                </div>
-                {move || (!preview()).then(|| view! { <DevicesPanel /> })}
-                {move || (!preview()).then(|| view! { <div class="plots"><PlotPanel /><Standstill /></div> })}
-                <Frames />
+        </div>
+    }
+}
+
+/// The first view: three doors, and what is behind them in small.
+#[component]
+fn Preview() -> impl IntoView {
+    view! {
+        <Welcome />
+        <div class="stage">
+            <Angle />
+            <div class="side"><Status /></div>
+            <Frames />
+        </div>
+    }
+}
+
+/// What is shown of an encoder that is read.
+#[component]
+pub(crate) fn Live() -> impl IntoView {
+    view! {
+        <LinkPanel />
+        <div class="stage">
+            <SearchPanel />
+            <Angle />
+            <div class="side">
+                <Status />
+                <SettingPanel />
+                <ZeroWire />
             </div>
+            <DevicesPanel />
+            <div class="plots"><PlotPanel /><Standstill /></div>
+            <Frames />
         </div>
     }
 }
@@ -51,7 +73,7 @@ pub(crate) fn ConnectButton() -> impl IntoView {
         _ => "Connect an encoder",
     };
     view! {
-        <button class="primary" data-testid="connect" disabled=absent.is_some() on:click=move |_| app.connect()>
+        <button class="primary" data-testid="connect" disabled=move || absent.is_some() || app.reads_link.get() on:click=move |_| app.connect()>
             {label}
         </button>
     }
@@ -61,7 +83,7 @@ pub(crate) fn ConnectButton() -> impl IntoView {
 pub(crate) fn DemoButton() -> impl IntoView {
     let app = expect_context::<App>();
     view! {
-        <button data-testid="demo" on:click=move |_| app.demo(Source::Demo)>
+        <button data-testid="demo" disabled=move || app.reads_link.get() on:click=move |_| app.demo(Source::Demo)>
             "Try the demo"
         </button>
     }
@@ -86,6 +108,7 @@ fn ObstacleNote() -> impl IntoView {
 /// The first view: what this is, and three doors.
 #[component]
 fn Welcome() -> impl IntoView {
+    let opened = RwSignal::new(false);
     view! {
         <section class="panel welcome">
             <h1>"Reads absolute encoders in the browser"</h1>
@@ -100,9 +123,9 @@ fn Welcome() -> impl IntoView {
                 <a class="button" href="#/decode">"Paste a dump"</a>
             </div>
             <ObstacleNote />
-            <details>
+            <details on:toggle=move |_| opened.set(true)>
                 <summary>"Encoder settings"</summary>
-                <ProfileEditor offer=Offer::Serial />
+                {move || opened.get().then(|| later(parts::settings, coming))}
             </details>
         </section>
     }

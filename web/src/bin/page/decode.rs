@@ -10,7 +10,7 @@ mod rows;
 mod share;
 
 use crate::{
-    app::App,
+    app::{App, Place},
     desk::Choice,
     frame_view::FrameView,
     profile_editor::{Offer, ProfileEditor},
@@ -19,7 +19,7 @@ use candidates::{Candidates, Nearby};
 use chart::AngleChart;
 use encoderscope::{explain::grouped, format::Format};
 use encoderscope_web::{
-    link,
+    link::{self, Fragment},
     message::{Explained, ToDesk},
 };
 use figures::Figures;
@@ -39,7 +39,17 @@ fn plural(count: f64, what: &str) -> String {
 #[component]
 pub(crate) fn Decode() -> impl IntoView {
     let app = expect_context::<App>();
-    let desk = app.desk;
+    let desk = app.desk();
+    app.settle(Place {
+        follow: Callback::new(move |link: Fragment| {
+            app.follow_profile_of(&link);
+            desk.follow_link(&link);
+        }),
+        fragment: Signal::derive(move || {
+            let profile = link::query(&app.profile.get());
+            format!("#/decode?{profile}{}", desk.fragment())
+        }),
+    });
     Effect::new(move || desk.decode_as(app.profile.get()));
     Effect::new(move || {
         if let Some(profile) = desk.found.get() {

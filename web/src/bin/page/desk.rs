@@ -4,9 +4,10 @@ mod link;
 
 pub(crate) use link::end_text;
 
-use crate::{Workers, handout::save};
+use crate::{Workers, app::App, handout::save};
 use encoderscope::profile::Profile;
 use encoderscope_web::{
+    browser::Peer,
     link::{self as links, query},
     message::{
         CandidateView, Explained, FromDesk, Marked, NearView, Overview, RowView, Selection, ToDesk,
@@ -17,7 +18,7 @@ use js_sys::Array;
 use leptos::prelude::*;
 use std::time::Duration;
 use wasm_bindgen::{JsCast, JsValue, prelude::Closure};
-use web_sys::{Blob, MessageEvent, Worker};
+use web_sys::{Blob, MessageEvent};
 
 /// Typing is over when nothing was typed for so long.
 const TYPED: Duration = Duration::from_millis(120);
@@ -43,7 +44,7 @@ type Parcel = (ToDesk, Option<Blob>);
 #[derive(Clone, Copy)]
 pub(crate) struct Desk {
     workers: StoredValue<Workers, LocalStorage>,
-    worker: StoredValue<Option<Worker>, LocalStorage>,
+    worker: StoredValue<Option<Peer>, LocalStorage>,
     /// What was said before the worker was ready.
     waiting: StoredValue<Option<Vec<Parcel>>, LocalStorage>,
     /// Text of the box.
@@ -92,10 +93,17 @@ pub(crate) struct Desk {
     profile: StoredValue<Option<Profile>>,
 }
 
+impl App {
+    /// The page's end of the worker that decodes dumps.
+    pub(crate) fn desk(self) -> Desk {
+        self.keep(|| Desk::new(self.workers))
+    }
+}
+
 impl Desk {
-    pub(crate) fn new(workers: Workers) -> Self {
+    fn new(workers: StoredValue<Workers, LocalStorage>) -> Self {
         Self {
-            workers: StoredValue::new_local(workers),
+            workers,
             worker: StoredValue::new_local(None),
             waiting: StoredValue::new_local(Some(Vec::new())),
             text: RwSignal::new(String::new()),
@@ -165,23 +173,23 @@ impl Desk {
             self.worker.with_value(|worker| {
                 if let Some(worker) = worker {
                     // A worker that is gone has reported its error already.
-                    let _ = worker.post_message(&Array::of2(&message, &file));
+                    let _ = worker.post(&Array::of2(&message, &file));
                 }
             });
         }
     }
 
-    fn listen(self, worker: Worker) {
+    fn listen(self, worker: Peer) {
         let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
             let both: Array = event.data().unchecked_into();
             if let Ok(message) = serde_wasm_bindgen::from_value::<FromDesk>(both.get(0)) {
                 self.receive(message, &both.get(1));
             }
         });
-        worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
+        worker.set_heard(Some(on_message.as_ref().unchecked_ref()));
         on_message.forget();
         let on_error = Closure::<dyn FnMut()>::new(move || self.break_down());
-        worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
+        worker.set_broken(Some(on_error.as_ref().unchecked_ref()));
         on_error.forget();
         self.worker.set_value(Some(worker));
     }

@@ -2,12 +2,14 @@
 
 use encoderscope::explain::degrees_text;
 use encoderscope_web::message::Shown;
+use js_sys::Math;
 use leptos::prelude::*;
 
 /// A point on a circle around (0, 0); 0° is up, angles run clockwise.
 fn point(degrees: f64, radius: f64) -> (f64, f64) {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    (radius * sin, -radius * cos)
+    // The browser's sine is there already.
+    let angle = degrees.to_radians();
+    (radius * Math::sin(angle), -radius * Math::cos(angle))
 }
 
 /// The dial of an encoder.
@@ -47,8 +49,9 @@ pub(crate) fn Dial(#[prop(into)] degrees: Signal<Option<f64>>) -> impl IntoView 
 
 /// Digits of an angle: those within the encoder's accuracy of 0.01°, and those beyond.
 fn digits(shown: &Shown) -> (String, String) {
-    let counts_per_degree = 2f64.powi(shown.angle_bits as i32) / 360.0;
-    let places = (counts_per_degree.log10().ceil().max(0.0) as u32).min(6);
+    let counts = 2f64.powi(shown.angle_bits as i32);
+    let finest = |places: &u32| 360.0 * 10f64.powi(*places as i32) >= counts;
+    let places = (0..6).find(finest).unwrap_or(6);
     let text = degrees_text(shown.angle as u64, shown.angle_bits, places);
     let trusted = text
         .find('.')

@@ -9,14 +9,13 @@ mod verdict;
 mod walk;
 mod wave;
 
-pub(crate) use paper::Paper;
-
 use crate::{
-    app::App,
+    app::{App, Place},
     profile_editor::{Offer, ProfileEditor},
 };
 use bits::BitRow;
 use encoderscope::sketch::{self, Sketch};
+use encoderscope_web::link::{Fragment, query};
 use exchange::Exchange;
 use fields::Fields;
 use leptos::prelude::*;
@@ -28,7 +27,17 @@ use wave::Wave;
 #[component]
 pub(crate) fn Explain() -> impl IntoView {
     let app = expect_context::<App>();
-    let paper = app.paper;
+    let paper = app.paper();
+    app.settle(Place {
+        follow: Callback::new(move |link: Fragment| {
+            app.follow_profile_of(&link);
+            paper.follow_link(&link, app.profile.get_untracked());
+        }),
+        fragment: Signal::derive(move || {
+            let profile = query(&app.profile.get());
+            format!("#/explain?{profile}{}", paper.fragment())
+        }),
+    });
     Effect::new(move || paper.follow_profile(app.profile.get()));
     view! {
         <div class="explain">
@@ -62,7 +71,7 @@ pub(crate) fn Explain() -> impl IntoView {
 #[component]
 fn Heading() -> impl IntoView {
     let app = expect_context::<App>();
-    let paper = app.paper;
+    let paper = app.paper();
     let title = move || {
         let (title, count, bytes) = paper
             .plan
@@ -119,7 +128,7 @@ fn Heading() -> impl IntoView {
 #[component]
 fn Tools() -> impl IntoView {
     let app = expect_context::<App>();
-    let paper = app.paper;
+    let paper = app.paper();
     let text = move || {
         let bytes = paper.plan.with(|plan| plan.bytes);
         let text = paper.with(Sketch::text).unwrap_or_default();

@@ -1,18 +1,17 @@
-//! The raw log: every frame with its time, direction, bytes and verdict; and bytes by hand.
+//! The raw log: every frame with its time, direction, bytes and verdict.
+
+mod by_hand;
+mod inspect;
+
+pub(crate) use by_hand::ByHand;
+pub(crate) use inspect::Inspect;
 
 use crate::{
     app::{App, Source},
-    frame_view::FrameView,
+    parts::{self, later},
 };
-use encoderscope::{decode::Decoder, dump, format::Medium, record::hex, sequence::danger};
-use encoderscope_web::{
-    link::query,
-    message::{Entry, Explained, Link, LogFilter, ToEngine},
-};
+use encoderscope_web::message::{Entry, LogFilter, ToEngine};
 use leptos::prelude::*;
-
-/// Most bytes that are sent by hand at once.
-const BY_HAND: usize = 32;
 
 #[component]
 pub(crate) fn Frames() -> impl IntoView {
@@ -38,6 +37,11 @@ pub(crate) fn Frames() -> impl IntoView {
         held.set(None);
         app.send(ToEngine::Log(wanted));
     };
+    let close = Callback::new(move |()| {
+        chosen.set(None);
+        held.set(None);
+    });
+    let sent = Callback::new(move |()| show(LogFilter::Beside));
     let pause = move |_| {
         held.update(|held| {
             *held = match held {
@@ -88,8 +92,8 @@ pub(crate) fn Frames() -> impl IntoView {
                     </tbody>
                 </table>
             </div>
-            {move || chosen.get().map(|entry| view! { <Inspect entry=entry close=move || { chosen.set(None); held.set(None) } /> })}
-            {move || (app.source.get() != Source::Preview).then(|| view! { <ByHand sent=move || show(LogFilter::Beside) /> })}
+            {move || chosen.get().map(|entry| later(move || parts::inspect(entry.clone(), close), || ()))}
+            {move || (app.source.get() != Source::Preview).then(|| later(move || parts::by_hand(sent), || ()))}
         </section>
     }
 }
@@ -130,138 +134,5 @@ fn EntryRow(
             <td class="bytes">{bytes}</td>
             <td class=verdict.0>{verdict.1}</td>
         </tr>
-    }
-}
-
-/// The chosen bytes, explained.
-#[component]
-fn Inspect(entry: Entry, close: impl Fn() + Copy + 'static) -> impl IntoView {
-    let app = expect_context::<App>();
-    let profile = app.profile.get_untracked();
-    let bytes: Vec<u8> = entry.bytes.iter().map(|(byte, _)| *byte).collect();
-    let text = hex(&bytes);
-    let decoder = Decoder::new(profile).ok().filter(|_| !entry.sent);
-    let explained = decoder.and_then(|decoder| {
-        let frame = decoder.frame(&bytes)?;
-        Some(Explained::new(0, frame.bits, true, &frame.explain()))
-    });
-    let shown = match explained {
-        Some(frame) => view! { <FrameView frame=frame /> }.into_any(),
-        None => {
-            view! { <p class="hint">{entry.text} " " <code>{text.clone()}</code></p> }.into_any()
-        }
-    };
-    view! {
-        <div class="inspect" data-testid="inspect">
-            {shown}
-            <div class="doors">
-                <a class="button" href=format!("#/decode?{}&dump={text}", query(&profile))>"Open in the decoder"</a>
-                <button on:click=move |_| close()>"Close"</button>
-            </div>
-        </div>
-    }
-}
-
-/// What a line of text asks to be sent.
-fn parse(text: &str) -> Result<Vec<u8>, String> {
-    let dump = dump::parse(text, Medium::Bytes);
-    let bytes = dump.bytes().to_vec();
-    match bytes.len() {
-        _ if !dump.unread().is_empty() || !dump.dropped().is_empty() => {
-            // What is to be sent must not be guessed.
-            let marks = dump.unread().places.iter().chain(&dump.dropped().places);
-            let unread =
-                marks.filter_map(|mark| text.get(mark.at.start as usize..mark.at.end as usize));
-            Err(format!(
-                "not bytes: {}",
-                unread.collect::<Vec<_>>().join(" ")
-            ))
-        }
-        0 => Err("hexadecimal bytes, for example 1A".into()),
-        count if count > BY_HAND => Err(format!("{count} bytes are more than {BY_HAND}")),
-        _ => Ok(bytes),
-    }
-}
-
-/// Sends bytes by hand, and shows what comes back; those that change an encoder only after a question.
-#[component]
-fn ByHand(sent: impl Fn() + Copy + Send + 'static) -> impl IntoView {
-    let app = expect_context::<App>();
-    let text = RwSignal::new(String::new());
-    let fault = RwSignal::new(None::<String>);
-    let question = RwSignal::new(None::<(Vec<u8>, String)>);
-    let open = Memo::new(move |_| {
-        let snapshot = app.snapshot.get();
-        let reads = !matches!(snapshot.link, Link::Opening | Link::Searching);
-        snapshot.link.is_open() && reads && !snapshot.busy
-    });
-    // What was asked about one encoder is not sent to another.
-    let target = Memo::new(move |_| {
-        let open = app.snapshot.get().link.is_open();
-        (open, app.port.get(), app.profile.get())
-    });
-    Effect::new(move || {
-        let _ = target.get();
-        question.set(None);
-    });
-    let send = move || {
-        question.set(None);
-        fault.set(None);
-        match parse(&text.get_untracked()) {
-            Err(why) => fault.set(Some(why)),
-            Ok(bytes) => match danger(&app.profile.get_untracked(), &bytes) {
-                Some(danger) => question.set(Some((bytes, danger.to_string()))),
-                None => {
-                    sent();
-                    app.send(ToEngine::Send {
-                        bytes,
-                        confirmed: false,
-                    });
-                }
-            },
-        }
-    };
-    let confirm = move |bytes: Vec<u8>| {
-        question.set(None);
-        sent();
-        app.send(ToEngine::Send {
-            bytes,
-            confirmed: true,
-        });
-    };
-    view! {
-        <form
-            class="by-hand"
-            on:submit=move |event| {
-                event.prevent_default();
-                send();
-            }
-        >
-            <label>
-                "Send bytes by hand"
-                <input
-                    name="by-hand"
-                    placeholder="1A"
-                    autocomplete="off"
-                    spellcheck="false"
-                    prop:value=move || text.get()
-                    on:input:target=move |event| {
-                        text.set(event.target().value());
-                        question.set(None);
-                    }
-                />
-            </label>
-            <button data-testid="send" disabled=move || !open.get()>"Send"</button>
-        </form>
-        {move || fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
-        {move || question.get().map(|(bytes, why)| view! {
-            <div class="question" role="alertdialog" data-testid="danger">
-                <p>{why} ". It may change what the encoder holds."</p>
-                <div class="doors">
-                    <button data-testid="send-anyway" on:click=move |_| confirm(bytes.clone())>"Send it all the same"</button>
-                    <button on:click=move |_| question.set(None)>"Do not send"</button>
-                </div>
-            </div>
-        })}
     }
 }

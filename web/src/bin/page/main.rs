@@ -23,6 +23,7 @@ mod handout;
 mod link_panel;
 mod live;
 mod log;
+mod parts;
 mod plot;
 mod ports;
 mod profile_editor;
@@ -32,28 +33,32 @@ mod standstill;
 mod theme;
 mod zero_wire;
 
-use leptos::prelude::{LocalStorage, StoredValue, provide_context};
+use encoderscope_web::browser::Peer;
 use wasm_bindgen::prelude::*;
 
 fn main() {}
 
 #[wasm_bindgen]
 extern "C" {
-    /// Makes the dedicated workers; `web/js/main.js`.
+    #[derive(Clone, Debug)]
+    /// Fetches and makes what is not Rust; `web/js/main.js`.
     pub type Workers;
     /// One that runs the engine.
     #[wasm_bindgen(method, catch)]
-    fn engine(this: &Workers) -> Result<web_sys::Worker, JsValue>;
+    fn engine(this: &Workers) -> Result<Peer, JsValue>;
+    /// The page's end of a channel to an engine that runs on the page.
+    #[wasm_bindgen(method, catch, js_name = engineHere)]
+    async fn engine_here(this: &Workers) -> Result<JsValue, JsValue>;
     /// One that decodes dumps.
     #[wasm_bindgen(method, catch)]
-    fn desk(this: &Workers) -> Result<web_sys::Worker, JsValue>;
+    fn desk(this: &Workers) -> Result<Peer, JsValue>;
+    /// What plots are drawn with.
+    #[wasm_bindgen(method, catch)]
+    async fn charts(this: &Workers) -> Result<JsValue, JsValue>;
 }
 
-/// Mounts the page; `charts` is what plots are drawn with.
+/// Mounts the page.
 #[wasm_bindgen]
-pub fn start(workers: Workers, charts: plot::Charts) {
-    leptos::mount::mount_to_body(move || {
-        provide_context::<StoredValue<_, LocalStorage>>(StoredValue::new_local(charts));
-        app::app(workers)
-    });
+pub fn start(workers: Workers) {
+    leptos::mount::mount_to_body(move || app::app(workers));
 }

@@ -2,7 +2,7 @@
 
 mod chart;
 
-pub(crate) use chart::{Chart, Charts};
+pub(crate) use chart::{Canvas, Chart};
 
 use crate::app::App;
 use chart::{ChartView, Height, text, value_at};

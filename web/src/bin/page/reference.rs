@@ -17,7 +17,7 @@ mod topic;
 pub(crate) use book::Book;
 
 use crate::{
-    app::App,
+    app::{App, Place},
     profile_editor::{Offer, ProfileEditor},
 };
 use book::{Leaf, Mark, Section, filled_link};
@@ -26,13 +26,24 @@ use encoderscope::{
     format::Format,
     profile::Profile,
 };
+use encoderscope_web::link::Fragment;
 use leptos::{ev, html, prelude::*};
 use topic::Topic;
 
 #[component]
 pub(crate) fn Reference() -> impl IntoView {
     let app = expect_context::<App>();
-    let book = app.book;
+    let book = app.book();
+    app.settle(Place {
+        follow: Callback::new(move |link: Fragment| {
+            // A page may use names of the profile for entries of its own.
+            if !Book::is_filled(&link) {
+                app.follow_profile_of(&link);
+            }
+            book.follow_link(&link);
+        }),
+        fragment: Signal::derive(move || book.fragment(&app.profile.get())),
+    });
     let place = Memo::new(move |_| (book.leaf.get(), app.profile.get().title()));
     Effect::new(move |before: Option<(Leaf, &'static str)>| {
         let place = place.get();
@@ -85,7 +96,7 @@ fn reveal(mark: &Mark) {
 #[component]
 fn Contents() -> impl IntoView {
     let app = expect_context::<App>();
-    let book = app.book;
+    let book = app.book();
     let format = Memo::new(move |_| app.profile.get().format);
     let is_open = move |known: Format| book.leaf.get() == Leaf::Format && format.get() == known;
     let page = move |known: Format| {
@@ -178,7 +189,7 @@ fn is_wide() -> bool {
 #[component]
 fn Parts() -> impl IntoView {
     let app = expect_context::<App>();
-    let book = app.book;
+    let book = app.book();
     let parts = move || {
         let profile = app.profile.get();
         let there = format::sections(&profile).into_iter();

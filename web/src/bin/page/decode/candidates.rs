@@ -36,7 +36,7 @@ pub(super) fn describe(profile: &Profile) -> String {
 
 /// Reads the input with a profile, a mistake of its capture undone where there is one.
 fn read_as(app: App, change: Option<&String>, profile: Profile) {
-    let desk = app.desk;
+    let desk = app.desk();
     desk.choice.set(Choice::User);
     if desk
         .changed
@@ -64,8 +64,8 @@ pub(super) fn Nearby() -> impl IntoView {
         })
     };
     move || {
-        let near = app.desk.near.get();
-        (!near.is_empty() && !app.desk.is_empty()).then(|| {
+        let near = app.desk().near.get();
+        (!near.is_empty() && !app.desk().is_empty()).then(|| {
             view! {
                 <div class="nearby" role="status">
                     <p>"These frames fit better:"</p>
@@ -79,7 +79,7 @@ pub(super) fn Nearby() -> impl IntoView {
 #[component]
 pub(super) fn Candidates() -> impl IntoView {
     let app = expect_context::<App>();
-    let desk = app.desk;
+    let desk = app.desk();
     let all = RwSignal::new(false);
     let row = move |candidate: CandidateView| {
         let profile = link::profile(&candidate.profile).ok()?;

@@ -2,7 +2,7 @@
 
 use crate::{
     app::App,
-    plot::{Chart, Charts},
+    plot::{Canvas, Chart},
 };
 use encoderscope_web::message::ToDesk;
 use leptos::{html, prelude::*};
@@ -14,10 +14,11 @@ const COLUMNS: usize = 600;
 
 #[component]
 pub(super) fn AngleChart() -> impl IntoView {
-    let desk = expect_context::<App>().desk;
-    let charts = expect_context::<StoredValue<Charts, LocalStorage>>();
+    let app = expect_context::<App>();
+    let desk = app.desk();
     let place = NodeRef::<html::Div>::new();
     let chart = RwSignal::new_local(None::<Rc<Chart>>);
+    let begun = StoredValue::new(false);
     let columns = RwSignal::new(COLUMNS);
     // All rows, or those that were zoomed to.
     let zoom = RwSignal::new(None::<(usize, usize)>);
@@ -40,16 +41,18 @@ pub(super) fn AngleChart() -> impl IntoView {
         let (Some(element), true) = (place.get(), traced.get()) else {
             return;
         };
-        if chart.with_untracked(Option::is_some) {
+        if std::mem::replace(&mut *begun.write_value(), true) {
             return;
         }
-        let made = tell.with_value(|tell| {
-            let tell = tell.as_ref()?;
-            Some(charts.with_value(|charts| {
-                charts.chart(&element, "angle", "--angle", "rows", tell.as_ref())
-            }))
-        });
-        chart.set(made.map(Rc::new));
+        let canvas = Canvas {
+            element: element.into(),
+            quantity: "angle",
+            color: "--angle",
+            over: "rows",
+            tell,
+            chart,
+        };
+        canvas.fill(app);
     });
     let profile = Memo::new(move |_| desk.overview.get().profile);
     Effect::new(move || {

@@ -44,7 +44,7 @@ pub(super) fn figures(overview: &Overview) -> Vec<(&'static str, String)> {
 
 #[component]
 pub(super) fn Figures() -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     let heading = move || {
         let Overview {
             frames,

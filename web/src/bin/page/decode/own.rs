@@ -27,7 +27,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
     let take = move |text: &str| match app.profile.get_untracked().with("layout", text) {
         Ok(profile) => {
             fault.set(None);
-            app.desk.choice.set(crate::desk::Choice::User);
+            app.desk().choice.set(crate::desk::Choice::User);
             app.change_profile(profile);
         }
         Err(error) => fault.set(Some(error.message)),

@@ -41,7 +41,7 @@ const fn example(format: Format) -> &'static str {
 #[component]
 pub(super) fn Paste() -> impl IntoView {
     let app = expect_context::<App>();
-    let desk = app.desk;
+    let desk = app.desk();
     let over = RwSignal::new(false);
     let chooser = NodeRef::<html::Input>::new();
     let profile = move || app.profile.get_untracked();
@@ -152,14 +152,14 @@ fn paste_as_file(app: App, text: &str) {
     let parts = Array::of1(&JsValue::from_str(text));
     if let Ok(blob) = Blob::new_with_str_sequence(&parts) {
         let name = format!("pasted text, {}", plural(text.len() as f64, "byte"));
-        app.desk.open(name, blob, &app.profile.get_untracked());
+        app.desk().open(name, blob, &app.profile.get_untracked());
     }
 }
 
 /// How far a long input is, and a way to stop.
 #[component]
 fn Progress() -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     let progress = Memo::new(move |_| {
         let overview = desk.overview.get();
         let (read, total) = overview.read;
@@ -182,7 +182,7 @@ fn Progress() -> impl IntoView {
 /// What was read, in a line.
 #[component]
 fn ReadNote() -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     move || {
         let overview = desk.overview.get();
         let empty = desk.is_empty();
@@ -220,7 +220,7 @@ fn ReadNote() -> impl IntoView {
 /// The text with what was left out and what cannot be read, in place.
 #[component]
 fn HowRead() -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     move || {
         let marks = desk.marks.get();
         (!marks.is_empty() && !desk.is_empty()).then(|| {

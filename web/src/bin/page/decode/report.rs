@@ -9,7 +9,7 @@ use leptos::prelude::*;
 #[component]
 pub(super) fn Report() -> impl IntoView {
     let app = expect_context::<App>();
-    let desk = app.desk;
+    let desk = app.desk();
     move || {
         let rows = desk.report.get();
         (!rows.is_empty()).then(|| {

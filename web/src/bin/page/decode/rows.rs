@@ -108,7 +108,7 @@ impl Scroll {
 
 #[component]
 pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     let scroll = Scroll {
         first: RwSignal::new(0.0),
         total: Memo::new(move |_| desk.overview.get().shown),
@@ -230,7 +230,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
 
 #[component]
 fn Heading(by: Quantity, title: &'static str) -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     let order = Memo::new(move |_| {
         let order = desk.selection.get().order;
         order
@@ -266,7 +266,7 @@ fn Heading(by: Quantity, title: &'static str) -> impl IntoView {
 
 #[component]
 fn Line(row: RowView, place: usize, shown: Memo<Option<usize>>) -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     let timed = desk.overview.with_untracked(|overview| overview.timed);
     let index = row.index;
     let chosen = move || shown.get() == Some(index);
@@ -362,7 +362,7 @@ const fn title(show: Show) -> &'static str {
 /// Which rows are shown, and where to go.
 #[component]
 fn FilterBar() -> impl IntoView {
-    let desk = expect_context::<App>().desk;
+    let desk = expect_context::<App>().desk();
     let update = move |change: &dyn Fn(&mut Selection)| {
         desk.place.set_value(None);
         desk.selection.update(|selection| change(selection));

@@ -8,7 +8,7 @@ use leptos::prelude::*;
 #[component]
 pub(super) fn Share() -> impl IntoView {
     let app = expect_context::<App>();
-    let desk = app.desk;
+    let desk = app.desk();
     let said = RwSignal::new(None::<String>);
     Effect::new(move || {
         desk.text.track();

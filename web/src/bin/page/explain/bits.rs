@@ -18,7 +18,7 @@ pub(super) enum View {
 
 #[component]
 pub(super) fn BitRow() -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     let view = RwSignal::new(View::AsRead);
     // The bit that the tabulator key leads to.
     let here = RwSignal::new(0usize);
@@ -123,7 +123,7 @@ fn focus(bit: usize) {
 
 #[component]
 fn Cell(at: usize, here: RwSignal<usize>) -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     let (class, field, first) = paper.plan.with_untracked(|plan| {
         let field = plan.cells.get(at).copied().flatten();
         let before = at.checked_sub(1).and_then(|at| plan.cells.get(at).copied());
@@ -169,7 +169,7 @@ fn Cell(at: usize, here: RwSignal<usize>) -> impl IntoView {
 /// A byte in hexadecimal digits, to type over.
 #[component]
 fn ByteBox(byte: usize) -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     let text = move || {
         let byte = paper.with(|sketch| sketch.bits().bytes().get(byte).copied());
         format!("{:02X}", byte.flatten().unwrap_or(0))

@@ -15,7 +15,7 @@ use leptos::prelude::*;
 #[component]
 pub(super) fn Exchange() -> impl IntoView {
     let app = expect_context::<App>();
-    let paper = app.paper;
+    let paper = app.paper();
     let said = RwSignal::new(None::<String>);
     Effect::new(move || {
         paper.sketch.track();
@@ -140,7 +140,7 @@ fn Import() -> impl IntoView {
 fn read_wave(app: App, text: &str) -> Result<(), String> {
     let profile = app.profile.get_untracked();
     let bits = wavejson::read(text, &profile).map_err(|why| why.to_string())?;
-    app.paper.take_bits(bits, profile, None);
+    app.paper().take_bits(bits, profile, None);
     Ok(())
 }
 

@@ -11,7 +11,7 @@ use leptos::prelude::*;
 
 #[component]
 pub(super) fn Fields() -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     // One explanation for all rows.
     let notes = Memo::new(move |_| paper.with(Sketch::notes).unwrap_or_default());
     let rows = move || {
@@ -29,7 +29,7 @@ pub(super) fn Fields() -> impl IntoView {
 
 #[component]
 fn FieldRow(index: usize, field: FieldPlan, notes: Memo<Vec<Note>>) -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     let note = Memo::new(move |_| notes.with(|notes| notes.get(index).cloned()));
     let with = move |look: fn(&Note) -> String| note.with(|note| note.as_ref().map(look));
     let text = move || with(|note| note.text.clone());
@@ -78,7 +78,7 @@ fn FieldRow(index: usize, field: FieldPlan, notes: Memo<Vec<Note>>) -> impl Into
 /// A named bit of a field, to switch on and off.
 #[component]
 fn NamedBit(place: usize, bit: BitNote, note: Memo<Option<Note>>) -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     let set = move || {
         note.with(|note| {
             let bits = note.as_ref().map(|note| &note.bits);
@@ -108,7 +108,7 @@ fn NamedBit(place: usize, bit: BitNote, note: Memo<Option<Note>>) -> impl IntoVi
 /// The value of a field, to type over.
 #[component]
 fn Entry(field: FieldPlan, note: Memo<Option<Note>>) -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     let refusal = RwSignal::new(None::<String>);
     let name = field.name;
     let enter = move |text: String| {

@@ -1,5 +1,6 @@
 //! The frame that is explained, and what is pointed at.
 
+use crate::app::App;
 use encoderscope::{
     bits::BitString,
     decode::Decoder,
@@ -104,8 +105,15 @@ pub(crate) struct Paper {
     pub(super) fault: RwSignal<Option<String>>,
 }
 
+impl App {
+    /// The frame of the explainer.
+    pub(crate) fn paper(self) -> Paper {
+        self.keep(Paper::new)
+    }
+}
+
 impl Paper {
-    pub(crate) fn new() -> Self {
+    fn new() -> Self {
         let sketch = RwSignal::new(None);
         Self {
             sketch,

@@ -106,7 +106,7 @@ fn spaced(bytes: &[u8]) -> String {
 
 /// Explains a frame of the conversation.
 fn look_at(app: App, line: &Line) {
-    let paper: Paper = app.paper;
+    let paper: Paper = app.paper();
     paper.take(&hex(&line.bytes), line.profile, Some(line.direction));
     app.change_profile(line.profile);
 }

@@ -11,7 +11,7 @@ use leptos::prelude::*;
 #[component]
 pub(super) fn Verdict() -> impl IntoView {
     let app = expect_context::<App>();
-    let paper = app.paper;
+    let paper = app.paper();
     let heard = Memo::new(move |_| paper.with(Sketch::heard));
     let refused = |faults: Vec<String>| {
         view! {

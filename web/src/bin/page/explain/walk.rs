@@ -8,7 +8,7 @@ use leptos::prelude::*;
 /// One panel a check of the frame.
 #[component]
 pub(super) fn Checks() -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     move || {
         let plan = paper.plan.get();
         let checks = plan.fields.into_iter().filter(|field| field.is_check);
@@ -25,7 +25,7 @@ fn binary(value: u64, width: u32) -> String {
 
 #[component]
 fn CheckPanel(name: &'static str, title: String) -> impl IntoView {
-    let paper = expect_context::<App>().paper;
+    let paper = expect_context::<App>().paper();
     let look = move || {
         paper.with(|sketch| {
             let layout = &sketch.kind().layout;

@@ -21,7 +21,7 @@ const LEFT: f64 = 4.0;
 #[component]
 pub(super) fn Wave() -> impl IntoView {
     let app = expect_context::<App>();
-    let paper = app.paper;
+    let paper = app.paper();
     let hertz = RwSignal::new(Master::default().hertz);
     let clocked = Memo::new(move |_| app.profile.get().link() == Link::Clocked);
     let timeline = Memo::new(move |_| {

@@ -1,6 +1,7 @@
 //! One quantity over time, drawn by uPlot.
 
 use super::View;
+use crate::app::App;
 use encoderscope_web::plot::{Plot, Quantity, Trace};
 use leptos::{html, prelude::*};
 use std::rc::Rc;
@@ -37,6 +38,43 @@ extern "C" {
     pub fn mark(this: &Chart, at: f64);
     #[wasm_bindgen(method)]
     pub fn remove(this: &Chart);
+}
+
+/// Hears of gestures: which, and where.
+pub(crate) type Tell = Closure<dyn FnMut(String, f64, f64)>;
+
+/// Where a chart is to be.
+pub(crate) struct Canvas {
+    pub(crate) element: HtmlElement,
+    /// What is drawn, in words for a reader of the page's code.
+    pub(crate) quantity: &'static str,
+    /// The token of its colour.
+    pub(crate) color: &'static str,
+    /// What it is drawn over: `time` or `rows`.
+    pub(crate) over: &'static str,
+    /// Is told of gestures; nothing once the chart is not wanted any more.
+    pub(crate) tell: StoredValue<Option<Tell>, LocalStorage>,
+    pub(crate) chart: RwSignal<Option<Rc<Chart>>, LocalStorage>,
+}
+
+impl Canvas {
+    /// Makes the chart when the library for it has come.
+    pub(crate) fn fill(self, app: App) {
+        let workers = app.workers.get_value();
+        leptos::task::spawn_local(async move {
+            let Ok(charts) = workers.charts().await else {
+                // The figures beside the chart say the same.
+                return;
+            };
+            let charts: Charts = charts.unchecked_into();
+            let made = self.tell.try_with_value(|tell| {
+                let tell = tell.as_ref()?.as_ref();
+                let chart = charts.chart(&self.element, self.quantity, self.color, self.over, tell);
+                Some(Rc::new(chart))
+            });
+            self.chart.try_set(made.flatten());
+        });
+    }
 }
 
 /// How high a chart reaches.
@@ -134,10 +172,9 @@ fn trace_of(plot: &Plot, quantity: Quantity) -> Option<&Trace> {
 
 #[component]
 pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
-    let charts = expect_context::<StoredValue<Charts, LocalStorage>>();
     let place = NodeRef::<html::Div>::new();
     let chart = RwSignal::new_local(None::<Rc<Chart>>);
-    let tell = Closure::<dyn FnMut(String, f64, f64)>::new(move |what: String, a, b| {
+    let tell = Tell::new(move |what: String, a, b| {
         view.told(&what, a, b);
     });
     // Kept until the chart is gone, or it would call what is no more.
@@ -146,19 +183,15 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
         let Some(element) = place.get() else {
             return;
         };
-        let made = tell.with_value(|tell| {
-            let tell = tell.as_ref()?;
-            Some(charts.with_value(|charts| {
-                charts.chart(
-                    &element,
-                    quantity.name(),
-                    color(quantity),
-                    "time",
-                    tell.as_ref(),
-                )
-            }))
-        });
-        chart.set(made.map(Rc::new));
+        let canvas = Canvas {
+            element: element.into(),
+            quantity: quantity.name(),
+            color: color(quantity),
+            over: "time",
+            tell,
+            chart,
+        };
+        canvas.fill(view.app);
     });
     Effect::new(move || {
         let Some(chart) = chart.get() else {

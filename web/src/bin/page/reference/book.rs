@@ -1,6 +1,7 @@
 //! Where the reference is open: a page of it, and what is marked there.
 
 use super::{kinds, topic::Topic};
+use crate::app::App;
 use encoderscope::{calculator::Calculator, profile::Profile};
 use encoderscope_web::link::{Fragment, encode, query};
 use leptos::prelude::*;
@@ -175,8 +176,15 @@ pub(crate) struct Book {
     entries: RwSignal<Vec<(String, String)>>,
 }
 
+impl App {
+    /// Where the reference is open.
+    pub(crate) fn book(self) -> Book {
+        self.keep(Book::new)
+    }
+}
+
 impl Book {
-    pub(crate) fn new() -> Self {
+    fn new() -> Self {
         Self {
             leaf: RwSignal::new(Leaf::Overview),
             mark: RwSignal::new(None),

@@ -10,7 +10,7 @@ use leptos::prelude::*;
 
 #[component]
 pub(super) fn Page(calculator: &'static Calculator) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let outcome = Memo::new(move |_| work(calculator, book));
     let inputs = calculator
         .inputs
@@ -68,7 +68,7 @@ pub(super) fn sentence(fault: &Fault) -> String {
 /// One input. What is the default is no part of the link.
 #[component]
 fn Field(input: &'static Input, outcome: Memo<Result<Outcome, Fault>>) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let id = format!("input-{}", input.name);
     let hint = format!("{id}-hint");
     let value = move || book.entry(input.name).unwrap_or(input.default.to_owned());

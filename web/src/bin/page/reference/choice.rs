@@ -24,7 +24,7 @@ pub(super) fn found<'a>(filled: &'a [(String, String)], name: &str) -> Option<&'
 /// The series and the interface. Another encoder has other interfaces and other adapters.
 #[component]
 pub(super) fn EncoderChoice() -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let asked = Memo::new(move |_| chosen(book));
     let series = Signal::derive(move || match asked.get() {
         Ok((series, _)) => series.key().to_owned(),
@@ -81,7 +81,7 @@ pub(super) fn Choice(
     #[prop(optional)]
     clears: &'static [&'static str],
 ) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let id = format!("choice-{name}");
     let hint_id = format!("{id}-hint");
     let enter = move |value: String| {

@@ -51,7 +51,7 @@ pub(super) fn All() -> impl IntoView {
 }
 
 fn item(erratum: &'static Erratum, href: String) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let mark = Mark::Erratum(erratum.number);
     let id = mark.id();
     let formats: Vec<_> = erratum

@@ -153,7 +153,7 @@ fn run_view(kind: &Kind, run: &Run) -> impl IntoView + use<> {
 /// One field.
 #[component]
 fn Row(kind: Kind, field: Field, note: Note) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let layout = &kind.frame.layout;
     let mark = Mark::Field {
         kind: kind.key.clone(),

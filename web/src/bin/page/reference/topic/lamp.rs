@@ -35,7 +35,7 @@ fn asked(book: Book) -> Result<Asked, Fault> {
 
 #[component]
 pub(super) fn Page() -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let asked = Memo::new(move |_| asked(book));
     let lamp = Signal::derive(move || match asked.get() {
         Ok(Asked::Status(health)) => health.lamp().light.name().to_owned(),

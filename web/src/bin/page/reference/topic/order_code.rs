@@ -29,7 +29,7 @@ const CODE: &str = "code";
 
 #[component]
 pub(super) fn Page() -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let code = Memo::new(move |_| book.entry(CODE).unwrap_or_default());
     let looks = Memo::new(move |_| match code.get().trim() {
         "" => Vec::new(),

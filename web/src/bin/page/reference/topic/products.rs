@@ -37,7 +37,7 @@ const TABLES: &[(&str, &[Series])] = &[
 
 #[component]
 pub(super) fn Page() -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let chosen = Memo::new(move |_| book.entry(SERIES).as_deref().and_then(Series::parse));
     let choose = move |key: String| match key.as_str() {
         "" => book.clear(SERIES),

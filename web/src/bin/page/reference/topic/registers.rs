@@ -32,7 +32,7 @@ const CONTROL: &str = "0x01";
 pub(super) fn Page() -> impl IntoView {
     let calculator = filled_link(Leaf::Calculator("apci-1710"), &[]);
     let plain = PLAIN.map(|(register, example)| {
-        let book = expect_context::<App>().book;
+        let book = expect_context::<App>().book();
         let text = Memo::new(move |_| book.entry(register.name()).unwrap_or(example.to_owned()));
         let value = Memo::new(move |_| register.entered(&text.get()));
         let notes = Memo::new(move |_| {

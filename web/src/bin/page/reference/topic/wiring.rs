@@ -21,7 +21,7 @@ use leptos::prelude::*;
 
 #[component]
 pub(super) fn Page() -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let setup = Memo::new(move |_| {
         let filled = book.filled();
         Setup::parse(|name| found(&filled, name))
@@ -72,7 +72,7 @@ pub(super) fn Page() -> impl IntoView {
 /// Why there is no picture, and what would fit.
 #[component]
 fn Refused(fault: Fault, setup: Option<Setup>) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let fitting = setup.map(Setup::fitting).unwrap_or_default();
     let doors: Vec<_> = fitting
         .into_iter()

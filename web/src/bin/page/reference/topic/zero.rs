@@ -15,7 +15,7 @@ use leptos::prelude::*;
 
 #[component]
 pub(super) fn Page() -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let ways = move || chosen(book).and_then(|(series, interface)| zero(series, interface));
     let wiring = move || {
         let encoder = chosen(book).ok().map(|(series, interface)| {

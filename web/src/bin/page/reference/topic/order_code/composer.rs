@@ -8,7 +8,7 @@ use leptos::prelude::*;
 /// A choice for every part, which writes the code.
 #[component]
 pub(super) fn Composer(looks: Memo<Vec<Look>>) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let form = Memo::new(move |_| looks.with(|looks| form_of(looks)));
     let texts = Memo::new(move |_| looks.with(|looks| form.get().complete(looks)));
     let selects = move || {

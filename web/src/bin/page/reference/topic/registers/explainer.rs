@@ -19,7 +19,7 @@ pub(super) fn Explainer(
     notes: Memo<Vec<Note>>,
     #[prop(optional)] children: Option<Children>,
 ) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let id = format!("register-{name}");
     let fault = move || {
         let fault = value.get().err();
@@ -89,7 +89,7 @@ fn Bit(
     value: Memo<Result<u32, String>>,
     notes: Memo<Vec<Note>>,
 ) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     let width = register.width();
     let place = u32::try_from(width - 1 - at).unwrap_or(WORD_BITS);
     let is_set = Memo::new(move |_| {

@@ -65,7 +65,7 @@ fn example(profile: Profile, form: Form) -> String {
 #[component]
 pub(super) fn Shift() -> impl IntoView {
     let app = expect_context::<App>();
-    let book = app.book;
+    let book = app.book();
     let shared = Memo::new(move |_| app.profile.get());
     let is_clocked = Memo::new(move |_| shared.get().link() == Link::Clocked);
     let profile = Memo::new(move |_| match is_clocked.get() {
@@ -147,7 +147,7 @@ fn said(profile: Profile, form: Form, channel: Channel) -> String {
 /// Which profile reads the word.
 #[component]
 fn Whose(shared: Memo<Profile>, profile: Memo<Profile>) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     move || {
         let (shared, profile) = (shared.get(), profile.get());
         (shared != profile).then(|| {
@@ -168,7 +168,7 @@ fn Whose(shared: Memo<Profile>, profile: Memo<Profile>) -> impl IntoView {
 
 #[component]
 fn Position(held: Memo<Held>, profile: Memo<Profile>) -> impl IntoView {
-    let book = expect_context::<App>().book;
+    let book = expect_context::<App>().book();
     move || {
         let held = held.get();
         let angle_bits = profile.get().angle_bits;

@@ -1,5 +1,8 @@
 //! The small module: the JavaScript API and the serial worker.
 
+mod columns;
+
+use columns::ColumnReader;
 use encoderscope::{
     bits::Bits,
     decode::{Decoded, Decoder},
@@ -11,16 +14,16 @@ use encoderscope::{
     record::{Record, Value},
 };
 use encoderscope_web::{
-    browser::property,
+    browser::{Peer, property},
     desk::Desk,
     engine::Engine,
     message::{FromDesk, FromEngine, ToDesk, ToEngine},
     serial,
 };
-use js_sys::{Array, Object};
+use js_sys::{Array, Object, Uint8Array};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use wasm_bindgen::prelude::*;
-use web_sys::{DedicatedWorkerGlobalScope, MessageEvent};
+use web_sys::MessageEvent;
 
 fn main() {}
 
@@ -122,6 +125,19 @@ pub fn decode(profile: &JsValue, text: &str) -> Result<JsValue, JsError> {
     to_js(record)
 }
 
+/// Decodes all of the input into columns: bytes as they came, or text as it was pasted.
+#[wasm_bindgen(js_name = decodeColumns)]
+pub fn decode_columns(profile: &JsValue, input: &JsValue) -> Result<Object, JsError> {
+    let mut reader = ColumnReader::new(profile)?;
+    match (input.as_string(), input.dyn_ref::<Uint8Array>()) {
+        (Some(text), _) => reader.push_text(&text),
+        (None, Some(bytes)) => reader.push(bytes),
+        (None, None) => return Err(JsError::new("the input is neither text nor a Uint8Array")),
+    }
+    reader.finish();
+    Ok(reader.take())
+}
+
 /// Ranks what pasted text may be, best first.
 #[wasm_bindgen]
 pub fn detect(text: &str) -> Result<JsValue, JsError> {
@@ -201,15 +217,15 @@ pub fn parse_model(code: &str) -> Result<JsValue, JsError> {
     to_js(model::parse(code)?.record())
 }
 
-/// Serves the page from a dedicated worker.
+/// Runs the engine for the page at the other end: from a dedicated worker, whose scope that is, or
+/// from the page itself through a channel.
 #[wasm_bindgen]
-pub fn serve() -> Result<(), JsError> {
-    let scope: DedicatedWorkerGlobalScope = js_sys::global().unchecked_into();
-    let out = scope.clone();
+pub fn serve(page: &Peer) {
+    let out = page.clone();
     let post = move |message: FromEngine| {
         if let Ok(message) = serde_wasm_bindgen::to_value(&message) {
             // The page is gone when this fails.
-            let _ = out.post_message(&message);
+            let _ = out.post(&message);
         }
     };
     post(FromEngine::Hello {
@@ -221,21 +237,19 @@ pub fn serve() -> Result<(), JsError> {
             engine.handle(message);
         }
     });
-    scope.set_onmessage(Some(listen.as_ref().unchecked_ref()));
+    page.set_heard(Some(listen.as_ref().unchecked_ref()));
     listen.forget();
-    Ok(())
 }
 
 /// Decodes dumps for the page from a dedicated worker.
 #[wasm_bindgen(js_name = serveDesk)]
-pub fn serve_desk() {
-    let scope: DedicatedWorkerGlobalScope = js_sys::global().unchecked_into();
-    let out = scope.clone();
+pub fn serve_desk(page: &Peer) {
+    let out = page.clone();
     let post = move |message: FromDesk, file: Option<JsValue>| {
         if let Ok(message) = serde_wasm_bindgen::to_value(&message) {
             let both = Array::of2(&message, &file.unwrap_or_default());
             // The page is gone when this fails.
-            let _ = out.post_message(&both);
+            let _ = out.post(&both);
         }
     };
     post(FromDesk::Ready, None);
@@ -247,6 +261,6 @@ pub fn serve_desk() {
             desk.handle(message, file);
         }
     });
-    scope.set_onmessage(Some(listen.as_ref().unchecked_ref()));
+    page.set_heard(Some(listen.as_ref().unchecked_ref()));
     listen.forget();
 }
