@@ -152,6 +152,8 @@ pub struct Framer {
     /// Where the shaft was in the last sure frame, and in the one before.
     last: Option<Position>,
     earlier: Option<Position>,
+    /// Where a frame begins whose phase has been proven.
+    proven: Option<u64>,
     /// The last sure frame, and whether it was the one before it again.
     previous: Vec<u8>,
     repeats: bool,
@@ -163,8 +165,11 @@ type Sink<'s> = dyn FnMut(Piece<'_>) + 's;
 enum Step<'d> {
     Wait,
     Frame(&'d Resolved, Trust),
-    Skip(usize, Why),
+    Skip(usize, Why, Option<Proven>),
 }
+
+/// The frame behind a skip needs no more evidence for its phase than was found before the skip.
+struct Proven;
 
 /// How far a frame can be trusted to begin where it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -193,6 +198,7 @@ impl Framer {
             contiguous: true,
             last: None,
             earlier: None,
+            proven: None,
             previous: Vec::new(),
             repeats: false,
         }
@@ -296,7 +302,8 @@ impl Framer {
                     from = end;
                     self.skipped = 0;
                 }
-                Step::Skip(count, why) => {
+                Step::Skip(count, why, proven) => {
+                    self.proven = proven.map(|Proven| self.base + (at + count) as u64);
                     if why != self.why || self.skipped + count > SKIP {
                         self.flush(from, self.skipped, sink);
                         from += self.skipped;

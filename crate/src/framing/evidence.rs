@@ -65,6 +65,8 @@ impl Position {
 /// The evidence for a phase.
 pub(super) struct Chain<'b> {
     pub(super) score: i32,
+    /// What the score would be at the least had it been followed further.
+    pub(super) least: i32,
     pub(super) passes: usize,
     /// What the places of the frames are counted in.
     input: &'b [u8],
@@ -84,6 +86,7 @@ impl<'b> Chain<'b> {
     pub(super) const fn new(input: &'b [u8], last: Option<Position>, bonus: i32) -> Self {
         Self {
             score: bonus,
+            least: bonus,
             passes: 0,
             input,
             frames: [(0, 0); WINDOW],

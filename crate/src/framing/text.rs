@@ -36,7 +36,7 @@ impl Framer {
                 },
                 false => Why::NoFrame,
             };
-            return Step::Skip(have, why);
+            return Step::Skip(have, why, None);
         };
         let (line, behind) = rest.split_at(end + 1);
         let whole = self.contiguous || before == Some(b'\n');
@@ -44,7 +44,7 @@ impl Framer {
             .layout(line)
             .filter(|layout| whole && layout.len / 8 == line.len())
         else {
-            return Step::Skip(line.len(), Why::NoFrame);
+            return Step::Skip(line.len(), Why::NoFrame, None);
         };
         if !layout.holds(Bits::of_bytes(line)) {
             return Step::Frame(layout, Trust::Kept);

@@ -1,7 +1,7 @@
 //! Which phase of a stream is the right one.
 
 use super::{
-    Framer, Step, Trust, Why,
+    Framer, Proven, Step, Trust, Why,
     evidence::{Chain, Position, WINDOW, WORST},
 };
 use crate::{decode::Decoder, format::Link, layout::Resolved};
@@ -40,7 +40,7 @@ impl Framer {
         let layout = decoder.layout(rest);
         let passes = layout.is_some_and(|layout| layout.holds_at(rest));
         if !passes && is_before_reply(decoder, rest, self.last) {
-            return Step::Skip(1, Why::Request);
+            return Step::Skip(1, Why::Request, None);
         }
         let whole = layout.filter(|layout| layout.len / 8 <= rest.len());
         let first = whole
@@ -69,20 +69,28 @@ impl Framer {
         let own = first.map(|first| (first, self.own_chain(decoder, rest, all)));
         let visited = |shift| own.as_ref().is_some_and(|(_, own)| own.visits(shift));
         let until = match (&own, rivals) {
-            // That the only phase that passes is better than this one is all that matters.
-            (Some((_, own)), [_]) if own.passes == 0 => Until::Score(own.score + 1),
+            // That the only phase that passes is better than this one is all that matters, and
+            // whether it will be good enough.
+            (Some((_, own)), [_]) if own.passes == 0 => Until::Score(ENOUGH.max(own.score + 1)),
             _ => all,
         };
-        let mut other: Option<(usize, i32)> = None;
+        let mut other: Option<(usize, Chain<'_>)> = None;
         for shift in rivals.iter().copied().filter(|shift| !visited(*shift)) {
-            let score = chain(decoder, rest, shift, self.last, until).score;
-            if other.is_none_or(|(_, best)| score > best) {
-                other = Some((shift, score));
+            let chain = chain(decoder, rest, shift, self.last, until);
+            if other
+                .as_ref()
+                .is_none_or(|(_, best)| chain.score > best.score)
+            {
+                other = Some((shift, chain));
             }
         }
         match (own, other) {
-            (Some((first, own)), other) if other.is_none_or(|(_, score)| own.score >= score) => {
-                let other = other.map(|(_, score)| score);
+            (Some((first, own)), other)
+                if other
+                    .as_ref()
+                    .is_none_or(|(_, best)| own.score >= best.score) =>
+            {
+                let other = other.map(|(_, best)| best.score);
                 self.best(decoder, rest, first, &own, other)
             }
             // The frames only repeat one another, so that the zeros in front of another phase
@@ -92,7 +100,10 @@ impl Framer {
             {
                 Step::Frame(first.layout, Trust::Unsure)
             }
-            (_, Some((shift, _))) => skip(decoder, rest, shift),
+            (_, Some((shift, best))) => {
+                let proven = best.passes > 1 && best.least >= ENOUGH && !best.leaps(self.last);
+                skip(decoder, rest, shift, proven.then_some(Proven))
+            }
             (_, None) => self.nothing(decoder, rest),
         }
     }
@@ -105,6 +116,9 @@ impl Framer {
         let until = match first.passes {
             false => Until::Passes(1),
             true if !known => Until::Passes(WINDOW),
+            true if self.proven == Some(self.offset_of(rest)) => {
+                return Step::Frame(first.layout, Trust::Sure);
+            }
             true if !self.is_unrivalled(first.layout, frame) => Until::Score(ENOUGH),
             true if self.held => Until::Passes(0),
             true => Until::Passes(2),
@@ -136,14 +150,19 @@ impl Framer {
                 && (self.held || !own.leaps(self.last));
             Step::Frame(layout, if sure { Trust::Sure } else { Trust::Unsure })
         } else if own.visits(1) {
-            Step::Skip(1, Why::Request)
+            Step::Skip(1, Why::Request, None)
         } else if own.passes > 0 {
             Step::Frame(layout, Trust::Kept)
         } else if self.held || ends_whole(decoder, layout, rest, self.is_anchored()) {
             Step::Frame(layout, Trust::Last)
         } else {
-            Step::Skip(1, Why::NoFrame)
+            Step::Skip(1, Why::NoFrame, None)
         }
+    }
+
+    /// Where the rest of the buffer begins in the input.
+    const fn offset_of(&self, rest: &[u8]) -> u64 {
+        self.base + (self.buffer.len() - rest.len()) as u64
     }
 
     /// Whether this is the phase held before, or that of the start.
@@ -190,10 +209,11 @@ impl Framer {
                     have: rest.len(),
                     need,
                 },
+                None,
             );
         }
         let judged = 1..decoder.longest().min(rest.len());
-        Step::Skip(judged.end.max(1), Why::NoFrame)
+        Step::Skip(judged.end.max(1), Why::NoFrame, None)
     }
 }
 
@@ -216,11 +236,12 @@ fn ends_whole(decoder: &Decoder, layout: &Resolved, rest: &[u8], anchored: bool)
     len == rest.len() || anchored && few && rest.len().is_multiple_of(len)
 }
 
-fn skip<'d>(decoder: &Decoder, rest: &[u8], count: usize) -> Step<'d> {
+/// Skips to another phase.
+fn skip<'d>(decoder: &Decoder, rest: &[u8], count: usize, proven: Option<Proven>) -> Step<'d> {
     if count == 1 && decoder.is_request(rest[0]) {
-        Step::Skip(1, Why::Request)
+        Step::Skip(1, Why::Request, proven)
     } else {
-        Step::Skip(count, Why::NoFrame)
+        Step::Skip(count, Why::NoFrame, proven)
     }
 }
 
@@ -274,7 +295,8 @@ fn follow(chain: &mut Chain<'_>, decoder: &Decoder, rest: &[u8], start: usize, u
             Until::Score(score) => chain.passes > 1 && chain.score + left * WORST >= score,
         };
         if enough {
-            break;
+            chain.least = chain.score + left * WORST;
+            return;
         }
         let Some(mut here) = rest.get(at..).filter(|here| !here.is_empty()) else {
             break;
@@ -308,4 +330,5 @@ fn follow(chain: &mut Chain<'_>, decoder: &Decoder, rest: &[u8], start: usize, u
     if at == rest.len() && chain.passes > 0 {
         chain.score += EDGE;
     }
+    chain.least = chain.score;
 }

@@ -15,7 +15,7 @@ use crate::{
     reading::Reading,
 };
 use alloc::{boxed::Box, vec::Vec};
-use number::{Number, Take, eight};
+use number::{Number, Together};
 use sieve::Sieve;
 
 /// Bytes of a word.
@@ -44,8 +44,8 @@ pub(super) struct Fast {
     health: Number,
     /// Its bits that are sent the other way round.
     health_flip: u64,
-    /// Angle, turns, status and health where all are read from one word.
-    together: Option<[Take; 4]>,
+    /// All four where they are read from one word.
+    together: Option<Together>,
 }
 
 /// What tells whether one frame goes on from another, good or bad.
@@ -89,17 +89,9 @@ impl Resolved {
         let (health, health_flip) = self.health();
         let (angle, turns_number) = (number(last(Role::Angle)), number(turns));
         let status_number = number(status);
-        let together = || {
-            Some([
-                angle.alone()?,
-                turns_number.alone()?,
-                status_number.alone()?,
-                health.alone()?,
-            ])
-        };
         self.fast = Some(Box::new(Fast {
             sieve: Sieve::of(&self),
-            together: together(),
+            together: Together::of([&angle, &turns_number, &status_number, &health]),
             angle,
             sign: turns
                 .filter(|_| signed)
@@ -220,16 +212,16 @@ impl Resolved {
             return;
         };
         let room = columns.grow(run.len() / len);
-        if let Some([angle, turns, status, health]) = fast.together {
+        if let Some(together) = fast.together {
             let mut rest = run;
             let slots = room.angle.iter_mut().zip(room.turns);
             let slots = slots.zip(room.status).zip(room.health);
             for (((to_angle, to_turns), to_status), to_health) in slots {
-                let word = u64::from_be_bytes(eight(rest));
-                *to_angle = angle.worth(word);
-                *to_turns = fast.turns_of(turns.worth(word));
-                *to_status = fast.status_of(status.worth(word));
-                *to_health = fast.health_of(health.worth(word));
+                let [angle, turns, status, health] = together.read(rest);
+                *to_angle = angle;
+                *to_turns = fast.turns_of(turns);
+                *to_status = fast.status_of(status);
+                *to_health = fast.health_of(health);
                 rest = rest.get(len..).unwrap_or_default();
             }
             return;
@@ -265,10 +257,17 @@ impl Resolved {
     #[inline]
     pub(crate) fn glimpse(&self, bytes: &[u8]) -> Glimpse {
         if let Some(fast) = self.fast.as_deref() {
+            let [angle, turns, status] = match fast.together {
+                Some(together) => {
+                    let [angle, turns, status, _] = together.read(bytes);
+                    [angle, turns, status]
+                }
+                None => [&fast.angle, &fast.turns, &fast.status].map(|number| number.read(bytes)),
+            };
             return Glimpse {
-                angle: fast.angle.some(bytes),
-                turns: fast.turns.some(bytes).map(|turns| fast.turns_of(turns)),
-                status: fast.status.some(bytes).map(|status| fast.status_of(status)),
+                angle: fast.angle.exists().then_some(angle),
+                turns: fast.turns.exists().then(|| fast.turns_of(turns)),
+                status: fast.status.exists().then(|| fast.status_of(status)),
             };
         }
         let values = self.values(Bits::of_bytes(bytes).prefix(self.len));

@@ -7,12 +7,9 @@ use crate::{
 };
 use alloc::vec::Vec;
 
-/// Frames whose numbers are put together at once, where they have several parts.
-const BATCH: usize = 64;
-
 /// A part of a number: some bits of the eight bytes from one on.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Take {
+struct Take {
     /// The first of the bytes, counted in the frame.
     at: usize,
     order: Order,
@@ -85,8 +82,8 @@ impl Number {
         !self.takes.is_empty()
     }
 
-    /// All there is to the number, where its bits stand side by side in the first eight bytes.
-    pub(super) fn alone(&self) -> Option<Take> {
+    /// All there is to the number, where it stands in the first eight bytes as it is.
+    fn in_head(&self) -> Option<Take> {
         match &*self.takes {
             [] => Some(Take::default()),
             [take] if self.gray.is_none() && take.at == 0 && take.order == Order::First => {
@@ -104,8 +101,7 @@ impl Number {
 
     #[inline]
     pub(super) fn read(&self, bytes: &[u8]) -> u64 {
-        let takes = self.takes.iter();
-        self.decoded(takes.fold(0, |sum, take| sum | take.read(bytes)))
+        self.decoded(self.sum(bytes))
     }
 
     #[inline(always)]
@@ -131,21 +127,42 @@ impl Number {
         match &*self.takes {
             [] => {}
             [take] => take.column(run, len, column, |slot, bits| *slot = of(bits)),
-            takes => {
+            _ => {
                 let mut rest = run;
-                for slots in column.chunks_mut(BATCH) {
-                    let mut sums = [0; BATCH];
-                    let sums = sums.get_mut(..slots.len()).unwrap_or_default();
-                    for take in takes {
-                        take.column(rest, len, sums, |sum, bits| *sum |= bits);
-                    }
-                    for (slot, sum) in slots.iter_mut().zip(sums) {
-                        *slot = of(*sum);
-                    }
-                    rest = rest.get(BATCH * len..).unwrap_or_default();
+                for slot in column {
+                    *slot = of(self.sum(rest));
+                    rest = rest.get(len..).unwrap_or_default();
                 }
             }
         }
+    }
+
+    /// The number as its bits stand in the frame at the start of `bytes`.
+    #[inline(always)]
+    fn sum(&self, bytes: &[u8]) -> u64 {
+        let takes = self.takes.iter();
+        takes.fold(0, |sum, take| sum | take.read(bytes))
+    }
+}
+
+/// Angle, turns, status and health of a frame, where all stand in its first eight bytes: they
+/// are read at once, which is quicker where there are more than two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Together([Take; 4]);
+
+impl Together {
+    pub(super) fn of(numbers: [&Number; 4]) -> Option<Self> {
+        let several = numbers.iter().filter(|number| number.exists()).count() > 2;
+        let [angle, turns, status, health] = numbers.map(Number::in_head);
+        let takes = [angle?, turns?, status?, health?];
+        several.then_some(Self(takes))
+    }
+
+    /// The numbers of the frame at the start of `bytes`.
+    #[inline(always)]
+    pub(super) fn read(self, bytes: &[u8]) -> [u64; 4] {
+        let word = u64::from_be_bytes(eight(bytes));
+        self.0.map(|take| take.worth(word))
     }
 }
 
@@ -198,7 +215,7 @@ impl Take {
 
     /// What the part is worth in its eight bytes, of which the first is the most significant.
     #[inline(always)]
-    pub(super) const fn worth(&self, word: u64) -> u64 {
+    const fn worth(&self, word: u64) -> u64 {
         bits::turned(word, self.turn) & self.mask
     }
 
@@ -230,7 +247,7 @@ impl Take {
 
 /// The first eight bytes, or all there are and zeros behind them.
 #[inline(always)]
-pub(super) fn eight(bytes: &[u8]) -> [u8; WORD] {
+fn eight(bytes: &[u8]) -> [u8; WORD] {
     match bytes.first_chunk() {
         Some(word) => *word,
         None => filled_up(bytes),
