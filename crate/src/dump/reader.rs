@@ -128,6 +128,11 @@ impl Reader {
     /// Takes more of the text, cut anywhere.
     pub fn push(&mut self, mut piece: &[u8]) {
         while !piece.is_empty() {
+            if let Some(len) = self.simple_line(piece) {
+                self.at += len as u64;
+                piece = &piece[len..];
+                continue;
+            }
             let room = LONGEST - self.pending.len();
             let near = &piece[..room.min(piece.len())];
             let ends = near.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
@@ -274,6 +279,42 @@ impl Reader {
             return;
         }
         self.slow(text, &front);
+    }
+
+    /// Reads a whole line of nothing but whole bytes with one separator between, in one go, where
+    /// nothing in front of it counts; returns its length with its end. Leaves no trace of any
+    /// other line.
+    fn simple_line(&mut self, piece: &[u8]) -> Option<usize> {
+        let writing = &self.dump.writing;
+        let fancy =
+            writing.times != Times::None || writing.directed || writing.quotes != Quotes::None;
+        let free = matches!(writing.form, Form::Free | Form::Captured | Form::Binary);
+        let alone = self.pending.is_empty() && self.heading.is_none() && self.signs == [false; 2];
+        let begun = self.in_comment || self.soft || writing.printable || !alone;
+        if fancy || !free || begun || writing.digits != Digits::Hexadecimal {
+            return None;
+        }
+        let before = self.dump.data.len();
+        let mut numeric = false;
+        let near = piece.get(..LONGEST).unwrap_or(piece);
+        for (index, letters) in near.as_chunks::<3>().0.iter().enumerate() {
+            let [high, low, behind] = letters.map(|letter| NIBBLES[usize::from(letter)]);
+            if high >= 16 || low >= 16 {
+                break;
+            }
+            self.dump.data.push(high * 16 + low);
+            numeric |= high.min(low) < 10;
+            if behind == SEPARATES {
+                continue;
+            }
+            if numeric && matches!(letters[2], b'\n' | b'\r') {
+                self.close(None, None);
+                return Some((index + 1) * 3);
+            }
+            break;
+        }
+        self.dump.data.truncate(before);
+        None
     }
 
     /// Reads a line of nothing but whole bytes with plain separators between; leaves no trace

@@ -201,3 +201,53 @@ fn nonsense_never_panics_and_every_byte_is_accounted_for() {
         }
     }
 }
+
+#[test]
+fn whole_lines_are_read_as_those_that_come_in_pieces() {
+    let mut random = Noise::new(9);
+    let ends = [
+        "\n",
+        "\r\n",
+        "\r",
+        " \n",
+        ",\n",
+        " // at rest\n",
+        "\n\n",
+        "",
+    ];
+    let between = [" ", "  ", ",", ", ", "\t", ";", "", " 0x"];
+    for medium in [Medium::Bytes, Medium::Bits] {
+        let mut bytes = 0;
+        for round in 0..200 {
+            // Most lines of most texts are as plain as can be.
+            let odd = 1 + random.below(40);
+            let mut text = String::from("1a 20 29 C0 3b\n".repeat(3));
+            for _ in 0..30 {
+                let mut choose = |from: &[&'static str]| match random.below(odd) {
+                    0 => from[random.below(from.len() as u64) as usize],
+                    _ => from[0],
+                };
+                let (end, mut gap) = (choose(&ends), choose(&between));
+                let digits = choose(&["", "letters"]);
+                for index in 0..1 + random.below(12) {
+                    text += if index > 0 { gap } else { "" };
+                    text += &match digits {
+                        "" => format!("{:02x}", random.below(256)),
+                        // Words are no data where there is nothing else.
+                        _ => ["be", "ad", "AD", "cd"][random.below(4) as usize].into(),
+                    };
+                    gap = if random.below(100) == 0 { "-" } else { gap };
+                }
+                text += end;
+            }
+            let whole = dump::parse(&text, medium);
+            let mut reader = dump::Reader::new(medium, &text);
+            for piece in text.as_bytes().chunks(1 + round % 7) {
+                reader.push(piece);
+            }
+            bytes += whole.bytes().len();
+            assert_eq!(reader.finish(), whole, "{text:?}");
+        }
+        assert!(bytes > 20_000, "{bytes}");
+    }
+}
