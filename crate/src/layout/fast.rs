@@ -61,6 +61,10 @@ impl Resolved {
     /// and frames that are longer than sixteen bytes stay as they are.
     #[must_use]
     pub fn sieved(mut self) -> Self {
+        // Where size counts, few frames are read.
+        if cfg!(feature = "small") {
+            return self;
+        }
         let plain = self.fields().all(|field| {
             let once = field.row.role != Role::Repeat;
             let coding = self.coding(field).map(|(coding, _)| coding);
