@@ -221,7 +221,7 @@ fn whole_lines_are_read_as_those_that_come_in_pieces() {
         for round in 0..200 {
             // Most lines of most texts are as plain as can be.
             let odd = 1 + random.below(40);
-            let mut text = String::from("1a 20 29 C0 3b\n".repeat(3));
+            let mut text = "1a 20 29 C0 3b\n".repeat(3);
             for _ in 0..30 {
                 let mut choose = |from: &[&'static str]| match random.below(odd) {
                     0 => from[random.below(from.len() as u64) as usize],
