@@ -6,8 +6,25 @@ const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 // The tests use a name that is not localhost to get a page without a secure context.
 const serve = { host: '127.0.0.1', port: 8080, strictPort: true, allowedHosts: ['encoderscope.test'] };
 
+// The first WASM file is asked for with the script, not after it.
+const earlyWasm = {
+  name: 'early-wasm',
+  transformIndexHtml: {
+    order: 'post',
+    handler: (html, { bundle }) =>
+      Object.keys(bundle ?? {})
+        .filter((file) => /page_bg-.*\.wasm$/.test(file))
+        .map((file) => ({
+          tag: 'link',
+          attrs: { rel: 'preload', as: 'fetch', type: 'application/wasm', href: `./${file}`, crossorigin: true },
+          injectTo: 'head',
+        })),
+  },
+};
+
 export default defineConfig({
   base: './',
+  plugins: [earlyWasm],
   publicDir: here('./web/public'),
   worker: { format: 'es' },
   build: {

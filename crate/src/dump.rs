@@ -124,11 +124,56 @@ impl Dump {
             writing: Writing::binary(),
             ..Self::default()
         };
-        while dump.end.byte < dump.data.len() as u64 {
-            let left = dump.data.len() - dump.end.byte as usize;
-            dump.close(left.min(LONGEST / 8) * 8, None, None);
-        }
+        dump.close_bytes();
         dump
+    }
+
+    /// Adds bytes to a dump of bytes that nobody has written down.
+    ///
+    /// ```
+    /// use encoderscope::dump::Dump;
+    /// let mut dump = Dump::of_bytes([0x1a]);
+    /// dump.push_bytes(&[0x20, 0x29]);
+    /// assert_eq!(dump, Dump::of_bytes([0x1a, 0x20, 0x29]));
+    /// ```
+    pub fn push_bytes(&mut self, bytes: &[u8]) {
+        self.data.extend_from_slice(bytes);
+        self.close_bytes();
+    }
+
+    /// Makes room for so many bytes more at once; where there is none, room is sought as it is
+    /// needed.
+    pub fn reserve(&mut self, bytes: usize) {
+        let _ = self.data.try_reserve_exact(bytes);
+    }
+
+    /// Makes room for so many times more of everything.
+    fn expect(&mut self, times: f64) {
+        fn room<T>(column: &mut Vec<T>, times: f64) {
+            // A column that cannot have it grows as it must.
+            let _ = column.try_reserve_exact((column.len() as f64 * times) as usize);
+        }
+        room(&mut self.data, times);
+        room(&mut self.lens, times);
+        room(&mut self.stops, times);
+        room(&mut self.times, times);
+        room(&mut self.directions, times);
+    }
+
+    /// Bytes that nobody has written down are one line, as long as lines can be.
+    fn close_bytes(&mut self) {
+        let longest = LONGEST / 8 * 8;
+        while self.end.byte < self.data.len() as u64 {
+            let left = (self.data.len() - self.end.byte as usize).saturating_mul(8);
+            match self.lens.last_mut() {
+                Some(last) if (*last as usize) < longest => {
+                    let more = left.min(longest - *last as usize);
+                    *last += more as u32;
+                    self.end = self.end.behind(more as u32);
+                }
+                _ => self.close(left.min(longest), None, None),
+            }
+        }
     }
 
     /// A dump of bit strings that nobody has written down, each with its time in seconds.

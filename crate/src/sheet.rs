@@ -1,7 +1,7 @@
 //! A decoded dump as a table: a row a frame, filtered, sorted, summed up and traced.
 //!
-//! Rows are eight bytes each and are read again when they are looked at, so that ten million of
-//! them stay a small part of the data they come from. Everything is done in steps, so that a
+//! Rows are read again when they are looked at, and those that follow one another alike are kept
+//! together, so that ten million of them stay a small part of the data they come from. Everything is done in steps, so that a
 //! worker can show the first rows at once and stop at any time.
 //!
 //! ```
@@ -17,6 +17,7 @@
 //! ```
 
 mod figures;
+mod rows;
 mod trace;
 mod view;
 
@@ -31,7 +32,7 @@ use crate::{
     format::Medium,
     framing::Why,
 };
-use alloc::vec::Vec;
+use rows::{Entry, Kind, Rows, Skip, Unit};
 use trace::Trace;
 use view::View;
 
@@ -40,33 +41,6 @@ pub const MOST_ROWS: usize = 64_000_000;
 
 /// Lines that a reply may be spread over.
 const REPLY_LINES: usize = 8;
-
-/// What a row is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Good,
-    Bad,
-    Skip(Skip),
-}
-
-/// Why input is in no frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Skip {
-    Request,
-    NoFrame,
-    Unasked,
-    Truncated,
-}
-
-/// A row as it is kept.
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    /// Where its data begins: bytes of the data, or the line of a bit format.
-    at: u32,
-    /// Bytes of its data; of a bit format the line knows.
-    len: u16,
-    kind: Kind,
-}
 
 /// A row that is looked at.
 #[derive(Clone, Debug)]
@@ -94,7 +68,7 @@ impl Row<'_> {
 pub struct Sheet {
     decoder: Decoder,
     pass: Pass,
-    rows: Vec<Entry>,
+    rows: Rows,
     /// Rows that found no place.
     lost: u64,
     figures: Figures,
@@ -106,10 +80,14 @@ impl Sheet {
     /// A sheet without rows.
     #[must_use]
     pub fn new(decoder: Decoder) -> Self {
+        let unit = match decoder.profile().medium() {
+            Medium::Bits => Unit::Line,
+            Medium::Bytes | Medium::Text => Unit::Byte,
+        };
         Self {
             decoder,
             pass: Pass::new(),
-            rows: Vec::new(),
+            rows: Rows::new(unit),
             lost: 0,
             figures: Figures::default(),
             trace: Trace::default(),
@@ -141,9 +119,8 @@ impl Sheet {
         dump: &Dump,
         with: impl FnOnce(&mut Pass, &Decoder, &mut dyn FnMut(Decoded<'_>)) -> T,
     ) -> T {
-        let mut rows = Rows {
+        let mut taker = Taker {
             dump,
-            bits: self.decoder.profile().medium() == Medium::Bits,
             line: 0,
             rows: &mut self.rows,
             lost: &mut self.lost,
@@ -151,7 +128,7 @@ impl Sheet {
             trace: &mut self.trace,
         };
         let out = with(&mut self.pass, &self.decoder, &mut |decoded| {
-            rows.add(&decoded);
+            taker.add(&decoded);
         });
         self.figures.summary = self.pass.summary();
         out
@@ -194,7 +171,7 @@ impl Sheet {
                 let at = entry.at as usize;
                 let bytes = dump.bytes().get(at..at + usize::from(entry.len))?;
                 let line = dump.line(dump.line_at(at as u64))?;
-                (line, self.decode_bytes(dump, entry, bytes))
+                (line, self.decode_bytes(dump, &entry, bytes))
             }
         };
         Some(Row {
@@ -216,11 +193,7 @@ impl Sheet {
     /// The first row that is not a good frame, a request or its echo, from `from` on.
     #[must_use]
     pub fn next_fault(&self, from: usize) -> Option<usize> {
-        let rest = self.rows.get(from..)?;
-        let fine = |entry: &Entry| matches!(entry.kind, Kind::Good | Kind::Skip(Skip::Request));
-        rest.iter()
-            .position(|entry| !fine(entry))
-            .map(|at| from + at)
+        self.rows.next_fault(from)
     }
 
     /// The row at or behind a time in seconds, where times are known and ascend.
@@ -291,18 +264,17 @@ impl Sheet {
 }
 
 /// Takes the rows of a pass.
-struct Rows<'s> {
+struct Taker<'s> {
     dump: &'s Dump,
-    bits: bool,
     /// The line that the last row began in.
     line: usize,
-    rows: &'s mut Vec<Entry>,
+    rows: &'s mut Rows,
     lost: &'s mut u64,
     figures: &'s mut Figures,
     trace: &'s mut Trace,
 }
 
-impl Rows<'_> {
+impl Taker<'_> {
     fn add(&mut self, decoded: &Decoded<'_>) {
         if self.rows.len() >= MOST_ROWS {
             *self.lost += 1;
@@ -324,13 +296,17 @@ impl Rows<'_> {
             }
         };
         let timed = self.dump.has_times();
-        if self.bits || timed {
+        let unit = self.rows.unit();
+        if unit == Unit::Line || timed {
             self.line = self.dump.line_at(start);
         }
         let time = timed.then(|| self.dump.time_of(self.line)).flatten();
         self.figures.add(self.rows.len(), decoded, time);
         self.trace.add(decoded);
-        let at = if self.bits { self.line as u64 } else { start };
+        let at = match unit {
+            Unit::Line => self.line as u64,
+            Unit::Byte => start,
+        };
         self.rows.push(Entry {
             at: u32::try_from(at).unwrap_or(u32::MAX),
             len: u16::try_from(bits.bytes().len()).unwrap_or(u16::MAX),

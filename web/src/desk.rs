@@ -51,6 +51,8 @@ enum Paper {
     None,
     /// Text that is still coming.
     Coming(Reader),
+    /// Bytes that are still coming.
+    Growing(Dump),
     /// All of it.
     Whole(Dump),
 }
@@ -60,8 +62,17 @@ impl Paper {
         match self {
             Self::None => None,
             Self::Coming(reader) => Some(reader.dump()),
-            Self::Whole(dump) => Some(dump),
+            Self::Growing(dump) | Self::Whole(dump) => Some(dump),
         }
+    }
+
+    /// Nothing more will come.
+    fn end(&mut self) {
+        *self = match std::mem::take(self) {
+            Self::Coming(reader) => Self::Whole(reader.finish()),
+            Self::Growing(dump) => Self::Whole(dump),
+            paper => paper,
+        };
     }
 }
 

@@ -160,6 +160,12 @@ impl Reader {
         }
     }
 
+    /// So many times the text so far is still to come: makes room for what it will hold, if it
+    /// goes on alike. Room that is made as it is needed takes twice as much.
+    pub fn expect(&mut self, times: f64) {
+        self.dump.expect(times);
+    }
+
     /// What has been read: all lines that have ended.
     #[must_use]
     pub const fn dump(&self) -> &Dump {

@@ -232,7 +232,7 @@ impl Sheet {
     fn key(&self, dump: &Dump, index: usize) -> Option<f64> {
         let Entry { kind, .. } = self.rows.get(index)?;
         let View { filter, order, .. } = &self.view;
-        if !filter.takes(*kind) {
+        if !filter.takes(kind) {
             return None;
         }
         if !filter.reads() && order.is_none() {

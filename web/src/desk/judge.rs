@@ -98,10 +98,12 @@ impl Desk {
     async fn front(&self, profile: &Profile) -> Option<Dump> {
         let (source, origin) = {
             let state = self.state.borrow();
-            if let (Paper::Whole(dump), true) =
-                (&state.paper, state.binary || state.captured.is_some())
-            {
+            if let (Paper::Whole(dump), true) = (&state.paper, state.captured.is_some()) {
                 return Some(dump.clone());
+            }
+            if let (Paper::Whole(dump), true) = (&state.paper, state.binary) {
+                let front = dump.bytes().get(..NEARBY).unwrap_or(dump.bytes());
+                return Some(Dump::of_bytes(front));
             }
             (state.source.clone()?, state.origin)
         };

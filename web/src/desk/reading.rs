@@ -25,6 +25,8 @@ const BUDGET: usize = 128 << 10;
 const BUDGET_OF_BITS: usize = 8 << 10;
 /// Rows that are looked at in one go.
 const ROWS: usize = 50_000;
+/// How much more than its front says a text may hold.
+const SPARE: f64 = 1.02;
 /// Microseconds of work before others get their turn.
 const SLICE: u64 = 20_000;
 
@@ -95,10 +97,7 @@ impl Desk {
             Err(why) => self.post(FromDesk::Refused(why)),
         }
         let mut state = self.state.borrow_mut();
-        state.paper = match std::mem::take(&mut state.paper) {
-            Paper::Coming(reader) => Paper::Whole(reader.finish()),
-            paper => paper,
-        };
+        state.paper.end();
         state.finish();
         drop(state);
         self.tell(true);
@@ -221,10 +220,14 @@ impl Desk {
                 let mut state = self.state.borrow_mut();
                 state.read = at;
                 if let Paper::Coming(reader) = &mut state.paper {
+                    let first = reader.dump().is_empty();
                     reader.push(&recoder.recode(piece));
+                    if first {
+                        reader.expect((source.len() / at - 1.0) * SPARE);
+                    }
                 }
-                if last && let Paper::Coming(reader) = std::mem::take(&mut state.paper) {
-                    state.paper = Paper::Whole(reader.finish());
+                if last {
+                    state.paper.end();
                 }
             }
             if !self.decode(job, &mut turn).await || last {
@@ -234,35 +237,41 @@ impl Desk {
     }
 
     async fn read_bytes(&self, job: u32, source: &Source) -> Result<(), String> {
+        let mut at = {
+            let mut state = self.state.borrow_mut();
+            let mut dump = Dump::of_bytes([]);
+            dump.reserve((source.len() as usize).saturating_sub(state.origin));
+            state.paper = Paper::Growing(dump);
+            state.origin as f64
+        };
         let mut turn = Turn::new();
-        if let Some(bytes) = self.read_all(job, source, &mut turn).await? {
-            self.state.borrow_mut().paper = Paper::Whole(Dump::of_bytes(bytes));
-            self.decode(job, &mut turn).await;
-        }
-        Ok(())
-    }
-
-    /// Everything from the origin on; nothing where the job is not wanted any more.
-    async fn read_all(
-        &self,
-        job: u32,
-        source: &Source,
-        turn: &mut Turn,
-    ) -> Result<Option<Vec<u8>>, String> {
-        let origin = self.state.borrow().origin as f64;
-        let mut bytes = Vec::new();
         loop {
-            let piece = source.piece(origin + bytes.len() as f64).await?;
+            let piece = source.piece(at).await?;
             if !self.wants(job) {
-                return Ok(None);
+                return Ok(());
             }
-            if piece.is_empty() {
-                return Ok(Some(bytes));
+            let last = piece.is_empty();
+            at += piece.len() as f64;
+            let ready = {
+                let mut state = self.state.borrow_mut();
+                state.read = at;
+                if let Paper::Growing(dump) = &mut state.paper {
+                    dump.push_bytes(&piece);
+                }
+                if last {
+                    state.paper.end();
+                }
+                // The bits of a file are one word, which is not there before its end.
+                let medium = state.profile.map(|profile| profile.medium());
+                last || medium != Some(Medium::Bits)
+            };
+            if ready && !self.decode(job, &mut turn).await || last {
+                return Ok(());
             }
-            bytes.extend(piece);
-            self.state.borrow_mut().read = origin + bytes.len() as f64;
-            self.tell(false);
-            turn.over().await;
+            if !ready {
+                self.tell(false);
+                turn.over().await;
+            }
         }
     }
 

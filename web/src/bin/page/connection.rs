@@ -8,7 +8,7 @@ use encoderscope_web::{
     serial,
 };
 use leptos::prelude::*;
-use std::{cell::RefCell, rc::Rc};
+use std::{cell::RefCell, rc::Rc, time::Duration};
 use wasm_bindgen::{JsCast, prelude::Closure};
 use web_sys::MessageEvent;
 
@@ -37,19 +37,18 @@ enum Seat {
 }
 
 impl Connection {
-    /// Starts the engine in a worker, where there are workers; snapshots go into `snapshot`, answers
-    /// to the plot into `feed`. A worker that breaks down is replaced by an engine on the page, and
-    /// `broken` is set.
+    /// Starts the engine once the page has been drawn, in a worker where there are workers;
+    /// snapshots go into `snapshot`, answers to the plot into `feed`. A worker that breaks down is
+    /// replaced by an engine on the page, and `broken` is set.
     pub(crate) fn new(
         workers: StoredValue<Workers, LocalStorage>,
         snapshot: RwSignal<Snapshot>,
         feed: Feed,
         broken: RwSignal<bool>,
     ) -> Self {
-        let worker = workers.with_value(|workers| workers.engine().ok());
         let connection = Self {
             inner: Rc::new(RefCell::new(Inner {
-                engine: worker.clone(),
+                engine: None,
                 seat: Seat::Worker,
                 waiting: Some(Vec::new()),
             })),
@@ -57,20 +56,26 @@ impl Connection {
             snapshot,
             feed,
         };
-        match worker {
-            Some(worker) => {
-                connection.listen(&worker);
-                let moved = connection.clone();
-                let on_error = Closure::<dyn FnMut()>::new(move || {
-                    moved.run_here();
-                    broken.set(true);
-                });
-                worker.set_broken(Some(on_error.as_ref().unchecked_ref()));
-                on_error.forget();
-            }
-            None => connection.run_here(),
-        }
+        let starting = connection.clone();
+        request_animation_frame(move || {
+            set_timeout(move || starting.start(broken), Duration::ZERO);
+        });
         connection
+    }
+
+    fn start(&self, broken: RwSignal<bool>) {
+        let Ok(worker) = self.workers.with_value(Workers::engine) else {
+            return self.run_here();
+        };
+        self.listen(&worker);
+        let moved = self.clone();
+        let on_error = Closure::<dyn FnMut()>::new(move || {
+            moved.run_here();
+            broken.set(true);
+        });
+        worker.set_broken(Some(on_error.as_ref().unchecked_ref()));
+        on_error.forget();
+        self.inner.borrow_mut().engine = Some(worker);
     }
 
     fn listen(&self, engine: &Peer) {
