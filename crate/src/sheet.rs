@@ -1,8 +1,8 @@
 //! A decoded dump as a table: a row a frame, filtered, sorted, summed up and traced.
 //!
 //! Rows are read again when they are looked at, and those that follow one another alike are kept
-//! together, so that ten million of them stay a small part of the data they come from. Everything is done in steps, so that a
-//! worker can show the first rows at once and stop at any time.
+//! together, so that ten million of them stay a small part of the data they come from. Everything
+//! is done in steps, so that a worker can show the first rows at once and stop at any time.
 //!
 //! ```
 //! use encoderscope::{decode::Decoder, dump, profile::Profile, sheet::Sheet};

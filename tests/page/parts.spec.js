@@ -45,6 +45,18 @@ test('a link is kept while the code that reads it is on its way', async ({ page 
   expect(page.url()).toContain('frame=');
 });
 
+test('a link is followed though the address is written before the browser says so', async ({ page }) => {
+  await page.goto(`/#/explain?${frame}`);
+  await expect(at(page, 'explain-frame')).toHaveValue('1A2029C03B17000000C837');
+  await page.evaluate(() => {
+    const before = location.hash;
+    location.hash = '#/reference?page=order-code';
+    history.replaceState(null, '', before);
+  });
+  await expect(at(page, 'reference-topic')).toHaveAttribute('data-name', 'order-code');
+  expect(page.url()).toContain('#/reference?page=order-code');
+});
+
 test('the console waits with its doors until the profile of the link is read', async ({ page }) => {
   await page.route(part('live'), async (route) => {
     await new Promise((resolve) => setTimeout(resolve, 1_000));

@@ -81,6 +81,46 @@ fn rows_are_what_the_decoder_finds() {
 }
 
 #[test]
+fn rows_of_a_damaged_stream_are_kept_as_they_came() {
+    for parameters in ["format=period", "format=t485", "format=rs485 command=1", "format=asi4"] {
+        let decoder = decoder(parameters);
+        let encoder = Emulator::new(*decoder.profile(), Shaft::turning(5.0, 2.0)).unwrap();
+        let mut noise = Noise::new(8);
+        let mut bytes = Vec::new();
+        for index in 0..2_000u64 {
+            let mut frame = decoder.encode(&encoder.values(index * 300)).into_bytes();
+            // Long quiet stretches, then bytes that are lost, added and damaged.
+            if index % 400 >= 370 {
+                match noise.below(6) {
+                    0 => drop(frame.pop()),
+                    1 => frame.push(noise.below(256) as u8),
+                    2 => frame[0] ^= 1 << noise.below(8),
+                    _ => {}
+                }
+            }
+            bytes.extend(frame);
+        }
+        let dump = Dump::of_bytes(bytes);
+        let sheet = sheet(&decoder, &dump);
+        let mut rows = Vec::new();
+        decoder.dump(&dump, &mut |decoded| {
+            rows.push(match decoded {
+                Decoded::Frame(frame) => (frame.start, frame.bits.bytes().to_vec(), frame.ok()),
+                Decoded::Skip { start, bits, .. } => (start, bits.bytes().to_vec(), false),
+            });
+        });
+        assert!(rows.iter().any(|row| !row.2), "{parameters}");
+        assert_eq!(sheet.len(), rows.len(), "{parameters}");
+        for (index, row) in rows.iter().enumerate() {
+            assert_eq!(&short(&sheet, &dump, index), row, "{parameters} row {index}");
+            let fault = rows[index..].iter().position(|row| !row.2);
+            assert_eq!(sheet.next_fault(index), fault.map(|at| index + at), "{parameters} {index}");
+        }
+        assert_eq!(sheet.next_fault(rows.len()), None);
+    }
+}
+
+#[test]
 fn steps_of_any_size_make_the_same_sheet() {
     let (decoder, dump) = damaged("format=t485", 300);
     let whole = sheet(&decoder, &dump);

@@ -325,7 +325,11 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
         }
     });
 
-    let hash = window_event_listener(ev::hashchange, move |_| app.follow_link(&location_hash()));
+    // The address bar may have been brought up to date since the link was followed.
+    let hash = window_event_listener(ev::hashchange, move |event| {
+        let address = event.new_url();
+        app.follow_link(address.find('#').map_or("", |at| &address[at..]));
+    });
     let hide = window_event_listener_untyped("pagehide", move |_| app.disconnect());
     on_cleanup(move || {
         hash.remove();
