@@ -28,6 +28,8 @@ use talk::Talk;
 
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
+/// Figures and the log are renewed so often: nobody reads them faster.
+const SNAPSHOTS: Micros = 200_000;
 
 /// The engine; clones share one state.
 #[derive(Clone)]
@@ -43,8 +45,10 @@ struct State {
     interval: Micros,
     run: Option<Run>,
     tally: Tally,
-    /// The page has drawn and waits for a snapshot.
+    /// The page has drawn and waits for what is new.
     wanted: bool,
+    /// Before this time no snapshot is made of frames alone.
+    rested: Micros,
     /// What the page has asked for and nobody has begun.
     asked: Option<ToEngine>,
     /// What has been asked is being done.
@@ -73,6 +77,7 @@ impl Engine {
                 run: None,
                 tally: Tally::new(now()),
                 wanted: true,
+                rested: 0,
                 asked: None,
                 busy: false,
                 opening: None,

@@ -217,6 +217,8 @@ pub enum FromEngine {
     },
     /// The state of the link and what it has read.
     Snapshot(Box<Snapshot>),
+    /// The reading between snapshots.
+    Reading(Shown),
     /// What there is to plot.
     Plot(Box<Plot>),
     /// How much the angle varied within the last second, where anything was read.
@@ -439,6 +441,9 @@ pub struct Counts {
     /// Break, framing, parity and overrun errors of the port.
     pub line: f64,
 }
+
+/// Entries of the log that a snapshot carries.
+pub const ENTRIES: usize = 14;
 
 /// A frame or a skip in the log.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -31,11 +31,24 @@ const LATENCIES: usize = 512;
 /// The rate is taken over this time.
 const RATE_OVER: Micros = 1_000_000;
 
+/// What the page does not know yet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum News {
+    /// It knows everything.
+    Nothing,
+    /// Frames have gone by, or have not come.
+    Frames,
+    /// Something else, too.
+    More,
+}
+
 /// What is kept of a link.
 pub struct Tally {
     decoder: Option<Decoder>,
     opened: Micros,
-    changed: bool,
+    news: News,
+    /// There is a good frame that the page has not been told of.
+    fresh: bool,
     counts: Counts,
     echo: Echo,
     last_good: Option<Vec<u8>>,
@@ -72,7 +85,8 @@ impl Tally {
         Self {
             decoder: None,
             opened: now,
-            changed: true,
+            news: News::More,
+            fresh: false,
             counts: Counts::default(),
             echo: Echo::Unknown,
             last_good: None,
@@ -119,24 +133,30 @@ impl Tally {
         self.last_good = None;
         self.seen_bits.clear();
         self.places.clear();
-        self.changed = true;
+        self.touch();
     }
 
     /// Shows other entries of the log.
     pub const fn filter(&mut self, filter: LogFilter) {
         self.log.filter = filter;
-        self.changed = true;
+        self.touch();
     }
 
     /// Something else than the tally has changed.
     pub const fn touch(&mut self) {
-        self.changed = true;
+        self.news = News::More;
     }
 
-    /// Whether there is anything new since the last snapshot.
+    /// What is new since the last snapshot.
     #[must_use]
-    pub const fn changed(&self) -> bool {
-        self.changed
+    pub const fn news(&self) -> News {
+        self.news
+    }
+
+    /// The last good reading, if nobody has asked for it yet.
+    pub fn reading(&mut self) -> Option<Shown> {
+        let frame = frame_of(self.decoder.as_ref()?, self.last_good.as_ref()?, true)?;
+        std::mem::take(&mut self.fresh).then(|| shown(&frame))?
     }
 
     /// Bytes have come in.
@@ -148,7 +168,7 @@ impl Tally {
     /// The port reported a break, framing, parity or overrun error.
     pub fn line_error(&mut self) {
         self.counts.line += 1.0;
-        self.changed = true;
+        self.pass();
     }
 
     /// What is known of echo.
@@ -181,8 +201,13 @@ impl Tally {
                 return self.take_frame(now, bytes, *sure, *latency);
             }
         }
-        self.changed = true;
+        self.pass();
         false
+    }
+
+    /// Frames have gone by.
+    fn pass(&mut self) {
+        self.news = self.news.max(News::Frames);
     }
 
     fn take_frame(
@@ -269,11 +294,19 @@ impl Tally {
             };
             self.trail.take(now, shown.angle as u64, &sample);
         }
-        self.last_good = Some(frame.bits.bytes().into());
+        let bytes = frame.bits.bytes();
+        match &mut self.last_good {
+            Some(last) => {
+                last.clear();
+                last.extend_from_slice(bytes);
+            }
+            none => *none = Some(bytes.into()),
+        }
+        self.fresh = true;
     }
 
     fn remember(&mut self, at: Micros, bytes: &[u8], kind: Kind, text: String) {
-        self.changed = true;
+        self.pass();
         self.log.push(Seen {
             at,
             bytes: bytes.into(),
@@ -299,7 +332,8 @@ impl Tally {
 
     /// What the page shows; the link's state is the caller's.
     pub fn snapshot(&mut self, now: Micros) -> Snapshot {
-        self.changed = false;
+        self.news = News::Nothing;
+        self.fresh = false;
         self.forget(now);
         let over = (now - self.opened).clamp(1, RATE_OVER) as f64 / 1e6;
         let mut sorted: Vec<Micros> = self.latencies.iter().copied().collect();

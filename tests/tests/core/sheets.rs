@@ -82,7 +82,12 @@ fn rows_are_what_the_decoder_finds() {
 
 #[test]
 fn rows_of_a_damaged_stream_are_kept_as_they_came() {
-    for parameters in ["format=period", "format=t485", "format=rs485 command=1", "format=asi4"] {
+    for parameters in [
+        "format=period",
+        "format=t485",
+        "format=rs485 command=1",
+        "format=asi4",
+    ] {
         let decoder = decoder(parameters);
         let encoder = Emulator::new(*decoder.profile(), Shaft::turning(5.0, 2.0)).unwrap();
         let mut noise = Noise::new(8);
@@ -112,9 +117,17 @@ fn rows_of_a_damaged_stream_are_kept_as_they_came() {
         assert!(rows.iter().any(|row| !row.2), "{parameters}");
         assert_eq!(sheet.len(), rows.len(), "{parameters}");
         for (index, row) in rows.iter().enumerate() {
-            assert_eq!(&short(&sheet, &dump, index), row, "{parameters} row {index}");
+            assert_eq!(
+                &short(&sheet, &dump, index),
+                row,
+                "{parameters} row {index}"
+            );
             let fault = rows[index..].iter().position(|row| !row.2);
-            assert_eq!(sheet.next_fault(index), fault.map(|at| index + at), "{parameters} {index}");
+            assert_eq!(
+                sheet.next_fault(index),
+                fault.map(|at| index + at),
+                "{parameters} {index}"
+            );
         }
         assert_eq!(sheet.next_fault(rows.len()), None);
     }

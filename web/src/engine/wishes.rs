@@ -1,13 +1,14 @@
 //! What the page wishes of a link that is open.
 
 use super::{
-    DEMO_INTERVAL, State,
+    DEMO_INTERVAL, SNAPSHOTS, State,
     run::{Run, Todo, Wire},
     talk::{After, Talk},
 };
 use crate::{
     browser::now,
-    message::{FromEngine, Knobs, STILL, Setting, Supply},
+    message::{FromEngine, Knobs, STILL, Setting, Snapshot, Supply},
+    tally::News,
 };
 use encoderscope::{
     emulator::{Emulator, Faults, ZeroInput},
@@ -198,16 +199,41 @@ impl State {
                 timer.wake_by(run.deadline());
             }
         }
-        if self.wanted && self.tally.changed() {
-            self.wanted = false;
-            let mut snapshot = self.tally.snapshot(now);
-            snapshot.link = self.link.clone();
-            match &self.run {
-                Some(run) => snapshot.busy = run.talk.is_some(),
-                None => snapshot.rate = 0.0,
-            }
-            (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
+        if self.wanted {
+            self.tell(now);
         }
         todo
+    }
+
+    /// Tells the page what is new: of frames the reading at once, the rest now and then.
+    fn tell(&mut self, now: Micros) {
+        match self.tally.news() {
+            News::Nothing => {}
+            News::Frames if now < self.rested => {
+                if let Some(timer) = &mut self.timer {
+                    timer.wake_by(self.rested);
+                }
+                if let Some(reading) = self.tally.reading() {
+                    self.wanted = false;
+                    (self.post)(FromEngine::Reading(reading));
+                }
+            }
+            News::Frames | News::More => {
+                self.wanted = false;
+                self.rested = now + SNAPSHOTS;
+                let snapshot = self.snapshot(now);
+                (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
+            }
+        }
+    }
+
+    fn snapshot(&mut self, now: Micros) -> Snapshot {
+        let mut snapshot = self.tally.snapshot(now);
+        snapshot.link = self.link.clone();
+        match &self.run {
+            Some(run) => snapshot.busy = run.talk.is_some(),
+            None => snapshot.rate = 0.0,
+        }
+        snapshot
     }
 }

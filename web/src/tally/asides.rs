@@ -65,7 +65,7 @@ impl Tally {
     /// Bytes have come in that are not for the session.
     pub fn received_beside(&mut self, count: usize) {
         self.counts.set += count as f64;
-        self.changed = true;
+        self.pass();
     }
 
     /// A reply, or a part of one, that is not for the session.
@@ -109,14 +109,14 @@ impl Tally {
                 strange.join(", ")
             ),
         });
-        self.changed = true;
+        self.touch();
     }
 
     /// One device alone is read again.
     pub fn forget_devices(&mut self) {
         self.devices.clear();
         self.scan = None;
-        self.changed = true;
+        self.touch();
     }
 
     /// The addresses of the devices that are read.
@@ -153,7 +153,7 @@ impl Tally {
             found: found.collect(),
             stage: SearchStage::Running,
         });
-        self.changed = true;
+        self.pass();
     }
 
     /// A search has come to its end.
@@ -169,7 +169,7 @@ impl Tally {
         if let Some(search) = self.search.as_mut().filter(running) {
             search.stage = SearchStage::BrokenOff;
         }
-        self.changed = true;
+        self.touch();
     }
 
     /// A frame of one device among several.

@@ -1,15 +1,13 @@
 //! The raw log: what was sent and what came, with a verdict.
 
 use super::frame_of;
-use crate::message::{Entry, LogFilter};
+use crate::message::{ENTRIES, Entry, LogFilter};
 use encoderscope::{
     decode::{Decoder, Frame},
     session::Micros,
 };
 use std::collections::VecDeque;
 
-/// Entries that a snapshot carries.
-const SHOWN: usize = 14;
 /// Entries that are kept: of all, of those with a fault, and of those beside reading, which the
 /// many good ones do not push out.
 const KEPT: usize = 256;
@@ -91,7 +89,7 @@ impl Log {
             LogFilter::Beside => &self.beside,
             _ => &self.all,
         };
-        let shown = from.iter().filter(passes).take(SHOWN);
+        let shown = from.iter().filter(passes).take(ENTRIES);
         shown.map(|seen| entry(decoder, seen, opened)).collect()
     }
 }

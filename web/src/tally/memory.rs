@@ -11,7 +11,7 @@ impl Tally {
             address,
             data: None,
         });
-        self.changed = true;
+        self.touch();
     }
 
     /// What the cell that a setting writes held when it was read last.

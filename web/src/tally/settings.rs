@@ -21,7 +21,7 @@ impl Tally {
             held: self.held(setting),
             outcome: None,
         });
-        self.changed = true;
+        self.touch();
     }
 
     /// A sequence could not begin.
@@ -32,7 +32,7 @@ impl Tally {
 
     /// What a sequence says.
     pub fn follow(&mut self, event: &Event) {
-        self.changed = true;
+        self.touch();
         match event {
             Event::Transmit(_) => {}
             Event::Progress { done, count, .. } => {
@@ -64,12 +64,12 @@ impl Tally {
         if let Some(progress) = &mut self.progress {
             progress.outcome = Some(Outcome { changed, text });
         }
-        self.changed = true;
+        self.touch();
     }
 
     /// The outcome has been read.
     pub fn forget_progress(&mut self) {
         self.progress = None;
-        self.changed = true;
+        self.touch();
     }
 }

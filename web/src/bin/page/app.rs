@@ -227,7 +227,13 @@ impl App {
         let running = self.running.get_untracked();
         match self.source.get_untracked() {
             Source::Port if running == Some(shown) => {}
-            Source::Port if self.snapshot.get_untracked().link.is_open() => self.connect(),
+            Source::Port
+                if self
+                    .snapshot
+                    .with_untracked(|snapshot| snapshot.link.is_open()) =>
+            {
+                self.connect();
+            }
             Source::Port => {}
             Source::Demo | Source::Preview if running == Some(self.readable()) => {}
             source => self.demo(source),
@@ -310,7 +316,7 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
     Effect::new(move || app.follow_profile());
     Effect::new(move || app.follow_plug());
     // The engine says which device of a BUS is on the dial: settings go to that one.
-    let watched = Memo::new(move |_| app.snapshot.get().watched);
+    let watched = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.watched));
     Effect::new(move || {
         if let Some(address) = watched.get() {
             app.adopt_address(address);

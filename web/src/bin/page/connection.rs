@@ -38,7 +38,7 @@ enum Seat {
 
 impl Connection {
     /// Starts the engine once the page has been drawn, in a worker where there are workers;
-    /// snapshots go into `snapshot`, answers to the plot into `feed`. A worker that breaks down is
+    /// snapshots go into `snapshot`, the rest of what it says into `feed`. A worker that breaks down is
     /// replaced by an engine on the page, and `broken` is set.
     pub(crate) fn new(
         workers: StoredValue<Workers, LocalStorage>,
@@ -100,13 +100,22 @@ impl Connection {
             FromEngine::Hello { .. } => self.ready(),
             FromEngine::Plot(plot) => self.feed.plot.set(*plot),
             FromEngine::Rest(rest) => self.feed.rest.set(rest.map(|rest| *rest)),
+            FromEngine::Reading(reading) => {
+                self.feed.reading.set(Some(reading));
+                self.want_next();
+            }
             FromEngine::Snapshot(new) => {
+                self.feed.reading.set(new.reading);
                 self.snapshot.set(*new);
-                // The next one is wanted when this one has been drawn.
-                let connection = self.clone();
-                request_animation_frame(move || connection.send(ToEngine::Next));
+                self.want_next();
             }
         }
+    }
+
+    /// More is wanted when this has been drawn.
+    fn want_next(&self) {
+        let connection = self.clone();
+        request_animation_frame(move || connection.send(ToEngine::Next));
     }
 
     fn run_here(&self) {

@@ -68,7 +68,7 @@ pub(crate) fn Live() -> impl IntoView {
 pub(crate) fn ConnectButton() -> impl IntoView {
     let app = expect_context::<App>();
     let absent = serial::available().err();
-    let label = move || match app.snapshot.get().link {
+    let label = move || match app.snapshot.with(|snapshot| snapshot.link.clone()) {
         Link::Lost | Link::Refused { .. } if app.source.get() == Source::Port => "Reconnect",
         _ => "Connect an encoder",
     };

@@ -2,7 +2,7 @@
 
 use crate::app::App;
 use encoderscope::{explain::grouped, format::Format};
-use encoderscope_web::message::{Device, Link, ToEngine};
+use encoderscope_web::message::{Device, Link, Snapshot, ToEngine};
 use leptos::prelude::*;
 
 #[component]
@@ -10,17 +10,17 @@ pub(crate) fn DevicesPanel() -> impl IntoView {
     let app = expect_context::<App>();
     let is_bus = Memo::new(move |_| app.profile.get().format == Format::Bus);
     let open = Memo::new(move |_| {
-        let link = app.snapshot.get().link;
-        link.is_open() && !matches!(link, Link::Opening | Link::Searching)
+        app.snapshot.with(|Snapshot { link, .. }| {
+            link.is_open() && !matches!(link, Link::Opening | Link::Searching)
+        })
     });
-    let busy = Memo::new(move |_| app.snapshot.get().busy);
-    let scan = Memo::new(move |_| app.snapshot.get().scan);
+    let busy = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.busy));
+    let scan = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.scan.clone()));
     let addresses = Memo::new(move |_| {
-        let devices = app.snapshot.get().devices;
-        devices
-            .iter()
-            .map(|device| device.address)
-            .collect::<Vec<_>>()
+        app.snapshot.with(|snapshot| {
+            let devices = snapshot.devices.iter();
+            devices.map(|device| device.address).collect::<Vec<_>>()
+        })
     });
     move || {
         is_bus.get().then(|| {
@@ -46,8 +46,10 @@ pub(crate) fn DevicesPanel() -> impl IntoView {
 fn Tile(address: u8) -> impl IntoView {
     let app = expect_context::<App>();
     let device = Memo::new(move |_| {
-        let devices = app.snapshot.get().devices;
-        devices.into_iter().find(|device| device.address == address)
+        app.snapshot.with(|snapshot| {
+            let mut devices = snapshot.devices.iter();
+            devices.find(|device| device.address == address).cloned()
+        })
     });
     let own = move || app.profile.get().address == u32::from(address);
     let text = move || {

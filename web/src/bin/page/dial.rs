@@ -56,26 +56,26 @@ fn digits(shown: &Shown) -> (String, String) {
     let trusted = text
         .find('.')
         .map_or(text.len(), |point| (point + 4).min(text.len()));
-    (text[..trusted].into(), text[trusted..].into())
+    (text[..trusted].into(), format!("{}°", &text[trusted..]))
 }
 
 /// The angle, large.
 #[component]
 pub(crate) fn AngleDigits(#[prop(into)] shown: Signal<Option<Shown>>) -> impl IntoView {
+    let text = Memo::new(move |_| {
+        let none = || ("–––.–––".into(), String::new());
+        shown.get().as_ref().map_or_else(none, digits)
+    });
     view! {
         <p
             class="digits"
+            class:none=move || shown.get().is_none()
             class:invalid=move || shown.get().is_some_and(|shown| shown.error)
             data-testid="angle"
             data-value=move || shown.get().map(|shown| shown.angle.to_string())
         >
-            {move || match shown.get() {
-                Some(shown) => {
-                    let (trusted, beyond) = digits(&shown);
-                    view! { {trusted} <small>{beyond} "°"</small> }.into_any()
-                }
-                None => view! { <span class="none">"–––.–––"</span> }.into_any(),
-            }}
+            {move || text.with(|text| text.0.clone())}
+            <small>{move || text.with(|text| text.1.clone())}</small>
         </p>
     }
 }

@@ -242,7 +242,7 @@ fn link_text(link: &Link, app: App) -> (&'static str, String) {
         Link::Opening => ("Opening the port", String::new()),
         Link::Waiting => ("Port open", "No answer yet.".into()),
         Link::Searching => ("Searching", "Only requests that read are sent.".into()),
-        Link::Reading => ("Reading", slow_text(&app.snapshot.get())),
+        Link::Reading => ("Reading", app.snapshot.with(slow_text)),
         Link::Silent { echo: false } => (
             "No answer",
             "Nothing comes back. Check the supply, swap A and B, check the baud rate and the \
@@ -318,21 +318,23 @@ fn help(app: App, obstacle: Option<&Obstacle>) -> Option<(String, &'static str)>
         let page = format!("#/reference?page=wiring&series={series}&interface={interface}");
         Some((page, "Which wire goes where"))
     };
-    let snapshot = app.snapshot.get();
-    match (obstacle, &snapshot.link) {
-        (Some(Obstacle::RateNotMade(_)), _) => Some((adapters(), "Adapters that make this rate")),
-        (None, Link::Silent { .. } | Link::Garbage) => wiring(),
-        (None, Link::Refused { .. }) => Some((adapters(), "What must be allowed")),
-        (None, Link::Reading) if is_held(&snapshot) => Some((adapters(), "How to set it")),
-        _ => None,
-    }
+    app.snapshot
+        .with(|snapshot| match (obstacle, &snapshot.link) {
+            (Some(Obstacle::RateNotMade(_)), _) => {
+                Some((adapters(), "Adapters that make this rate"))
+            }
+            (None, Link::Silent { .. } | Link::Garbage) => wiring(),
+            (None, Link::Refused { .. }) => Some((adapters(), "What must be allowed")),
+            (None, Link::Reading) if is_held(snapshot) => Some((adapters(), "How to set it")),
+            _ => None,
+        })
 }
 
 /// The ladder, and the state in words.
 #[component]
 pub(crate) fn LinkState() -> impl IntoView {
     let app = expect_context::<App>();
-    let link = Memo::new(move |_| app.snapshot.get().link);
+    let link = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.link.clone()));
     let rungs = Memo::new(move |_| ladder(app));
     let obstacle = Memo::new(move |_| obstacle(app));
     let fails = Memo::new(move |_| obstacle.get().is_some() || height(&link.get()).1);

@@ -25,7 +25,7 @@ pub(crate) fn byte_text(byte: u8) -> String {
 #[component]
 pub(crate) fn Eeprom(chosen: RwSignal<Option<Setting>>) -> impl IntoView {
     let app = expect_context::<App>();
-    let cell = Memo::new(move |_| app.snapshot.get().memory);
+    let cell = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.memory));
     let shown = cell.get_untracked().map(|cell| cell.address);
     let address_text = RwSignal::new(format!("0x{:02X}", shown.unwrap_or(0)));
     let byte = RwSignal::new(String::new());
@@ -33,7 +33,7 @@ pub(crate) fn Eeprom(chosen: RwSignal<Option<Setting>>) -> impl IntoView {
         let address = number(&address_text.get());
         address.filter(|address| *address < MEMORY_SIZE)
     });
-    let reading = Memo::new(move |_| app.snapshot.get().link == Link::Reading);
+    let reading = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.link == Link::Reading));
     let asked = move || {
         cell.get()
             .filter(|cell| Some(cell.address) == address.get())

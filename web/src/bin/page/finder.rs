@@ -11,7 +11,10 @@ use leptos::prelude::*;
 #[component]
 pub(crate) fn FindButton() -> impl IntoView {
     let app = expect_context::<App>();
-    let searching = move || app.snapshot.get().link == Link::Searching;
+    let searching = move || {
+        app.snapshot
+            .with(|snapshot| snapshot.link == Link::Searching)
+    };
     view! {
         <button data-testid="find" disabled=searching on:click=move |_| app.find()>"Find it for me"</button>
     }
@@ -39,7 +42,7 @@ fn trial_text(trial: &Trial) -> String {
 #[component]
 pub(crate) fn SearchPanel() -> impl IntoView {
     let app = expect_context::<App>();
-    let search = Memo::new(move |_| app.snapshot.get().search);
+    let search = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.search.clone()));
     move || {
         search.get().map(|search| {
             let Search { trials, found, stage } = search;

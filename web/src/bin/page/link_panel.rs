@@ -19,7 +19,7 @@ use leptos::prelude::*;
 #[component]
 pub(crate) fn LinkPanel() -> impl IntoView {
     let app = expect_context::<App>();
-    let open = Memo::new(move |_| app.snapshot.get().link.is_open());
+    let open = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.link.is_open()));
     let polled = move || app.profile.get().link() == Way::Polled;
     let title = move || match app.source.get() {
         Source::Port => {
@@ -118,7 +118,7 @@ fn Count(
     read: fn(&Snapshot) -> f64,
 ) -> impl IntoView {
     let app = expect_context::<App>();
-    let value = Memo::new(move |_| read(&app.snapshot.get()));
+    let value = Memo::new(move |_| app.snapshot.with(read));
     view! {
         <dt>{label}</dt>
         <dd data-testid=testid data-value=move || value.get().to_string()>
@@ -175,7 +175,7 @@ fn PaceChooser() -> impl IntoView {
 #[component]
 fn ErrorRate() -> impl IntoView {
     let app = expect_context::<App>();
-    let rate = Memo::new(move |_| app.snapshot.get().error_rate);
+    let rate = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.error_rate));
     view! {
         <dt>"errors, last 5 s"</dt>
         <dd data-testid="error-rate" data-value=move || rate.get().map(|rate| rate.to_string())>
@@ -188,7 +188,7 @@ fn ErrorRate() -> impl IntoView {
 #[component]
 fn Counted(label: &'static str, testid: &'static str, read: fn(&Counts) -> f64) -> impl IntoView {
     let app = expect_context::<App>();
-    let value = Memo::new(move |_| read(&app.snapshot.get().counts));
+    let value = Memo::new(move |_| app.snapshot.with(|snapshot| read(&snapshot.counts)));
     move || {
         (value.get() > 0.0).then(|| {
             view! {

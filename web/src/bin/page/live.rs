@@ -22,8 +22,9 @@ fn is_fresh(snapshot: &Snapshot) -> bool {
 #[component]
 pub(crate) fn Angle() -> impl IntoView {
     let app = expect_context::<App>();
-    let shown = Memo::new(move |_| app.snapshot.get().reading);
-    let stale = move || shown.get().is_some() && !is_fresh(&app.snapshot.get());
+    let shown = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.reading));
+    let now = app.feed.reading;
+    let stale = move || shown.get().is_some() && !app.snapshot.with(is_fresh);
     let heading = move || match app.source.get() {
         Source::Port => "Angle",
         Source::Demo | Source::Preview => "Demo · angle",
@@ -57,10 +58,10 @@ pub(crate) fn Angle() -> impl IntoView {
     };
     view! {
         <section class="panel angle" class:stale=stale>
-            <Dial degrees=Signal::derive(move || shown.get().map(|shown| shown.degrees)) />
+            <Dial degrees=Signal::derive(move || now.get().map(|shown| shown.degrees)) />
             <div class="figures">
                 <h2>{heading}</h2>
-                <AngleDigits shown=shown />
+                <AngleDigits shown=now />
                 <p class="of">{move || counts().unwrap_or_else(|| "no reading yet".into())}</p>
                 <dl>
                     {row("turns", "turns", |shown| shown.turns, |turns| grouped_signed(turns as i64))}
@@ -91,10 +92,10 @@ pub(crate) fn Angle() -> impl IntoView {
 fn Turning() -> impl IntoView {
     let app = expect_context::<App>();
     let carried = Memo::new(move |_| {
-        let reading = app.snapshot.get().reading;
+        let reading = app.snapshot.with(|snapshot| snapshot.reading);
         reading.is_none_or(|shown| shown.speed.is_some())
     });
-    let turning = Memo::new(move |_| app.snapshot.get().turning);
+    let turning = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.turning));
     move || {
         (!carried.get()).then(|| {
             view! {
@@ -131,16 +132,23 @@ pub(crate) const fn tone(light: Light) -> &'static str {
 #[component]
 pub(crate) fn Status() -> impl IntoView {
     let app = expect_context::<App>();
-    let shown = Memo::new(move |_| app.snapshot.get().reading);
-    let lamps = Memo::new(move |_| app.snapshot.get().lamps);
-    let value = move || shown.get().and_then(|shown| shown.status);
+    let value = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.reading?.status));
+    let led = Memo::new(move |_| {
+        app.snapshot.with(|snapshot| {
+            let mut lamps = snapshot.lamps.iter();
+            let blinking = lamps.any(|lamp| lamp.now && blinks(&lamp.name));
+            snapshot.reading.map(|shown| (led(&shown), blinking))
+        })
+    });
+    let lamps = Memo::new(move |_| {
+        let rows = |snapshot: &Snapshot| snapshot.lamps.iter().map(lamp_text).collect::<Vec<_>>();
+        app.snapshot.with(rows)
+    });
     view! {
-        <section class="panel status" data-testid="status" data-value=move || value().map(|status| status.to_string())>
+        <section class="panel status" data-testid="status" data-value=move || value.get().map(|status| status.to_string())>
             <h2>"Status"</h2>
             <ul>
-                {move || shown.get().map(|shown| {
-                    let (tone, text) = led(&shown);
-                    let blinking = lamps.get().iter().any(|lamp| lamp.now && blinks(&lamp.name));
+                {move || led.get().map(|((tone, text), blinking)| {
                     let text = if blinking { format!("{text}, blinking") } else { text.into() };
                     view! {
                         <li class=format!("lamp {tone}") class:blink=blinking data-testid="led">
@@ -149,30 +157,48 @@ pub(crate) fn Status() -> impl IntoView {
                         </li>
                     }
                 })}
-                {move || lamps.get().into_iter().map(|lamp| view! { <LampRow lamp=lamp /> }).collect_view()}
+                {move || lamps.get().into_iter().map(lamp_row).collect_view()}
             </ul>
-            {move || (shown.get().is_some() && lamps.get().is_empty()).then(|| view! {
-                <p class="hint">"These frames carry no status bits."</p>
-            })}
-            {move || shown.get().is_none().then(|| view! { <p class="hint">"Shown with the first good frame."</p> })}
+            {move || match (led.get(), lamps.with(Vec::is_empty)) {
+                (None, _) => Some("Shown with the first good frame."),
+                (Some(_), true) => Some("These frames carry no status bits."),
+                (Some(_), false) => None,
+            }.map(|hint| view! { <p class="hint">{hint}</p> })}
         </section>
     }
 }
 
-#[component]
-fn LampRow(lamp: Lamp) -> impl IntoView {
-    let when = match (lamp.now, lamp.seen > 0.0) {
-        (true, _) => "now".into(),
-        (false, true) => format!("in {} frames", grouped(lamp.seen as u64)),
-        (false, false) => "never".into(),
-    };
+/// What a status bit shows: changes only when that does.
+#[derive(Clone, Debug, PartialEq)]
+struct LampText {
+    name: String,
+    /// What it means, once it has been set.
+    doc: Option<String>,
+    now: bool,
+    when: String,
+}
+
+fn lamp_text(lamp: &Lamp) -> LampText {
+    LampText {
+        name: lamp.name.clone(),
+        doc: (lamp.seen > 0.0).then(|| lamp.doc.clone()),
+        now: lamp.now,
+        when: match (lamp.now, lamp.seen > 0.0) {
+            (true, _) => "now".into(),
+            (false, true) => format!("in {} frames", grouped(lamp.seen as u64)),
+            (false, false) => "never".into(),
+        },
+    }
+}
+
+fn lamp_row(lamp: LampText) -> impl IntoView {
     view! {
         <li class=if lamp.now { "lamp warn" } else { "lamp off" } data-now=lamp.now.to_string()>
             <span>
                 {lamp.name}
-                {(lamp.seen > 0.0).then(|| view! { <small>{lamp.doc}</small> })}
+                {lamp.doc.map(|doc| view! { <small>{doc}</small> })}
             </span>
-            <span class="when">{when}</span>
+            <span class="when">{lamp.when}</span>
         </li>
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     app::{App, Source},
     parts::{self, later},
 };
-use encoderscope_web::message::{Entry, LogFilter, ToEngine};
+use encoderscope_web::message::{ENTRIES, Entry, LogFilter, ToEngine};
 use leptos::prelude::*;
 
 #[component]
@@ -26,11 +26,15 @@ pub(crate) fn Frames() -> impl IntoView {
         chosen.set(None);
         held.set(None);
     });
-    let log = Memo::new(move |_| held.get().unwrap_or_else(|| app.snapshot.get().log));
-    let choose = move |entry: Entry| {
+    let log = Memo::new(move |_| {
+        held.get()
+            .unwrap_or_else(|| app.snapshot.with(|snapshot| snapshot.log.clone()))
+    });
+    let choose = move |index: usize| {
         // A row that runs away cannot be looked at.
-        held.set(Some(log.get_untracked()));
-        chosen.set(Some(entry));
+        let log = log.get_untracked();
+        chosen.set(log.get(index).cloned());
+        held.set(Some(log));
     };
     let show = move |wanted: LogFilter| {
         filter.set(wanted);
@@ -46,7 +50,7 @@ pub(crate) fn Frames() -> impl IntoView {
         held.update(|held| {
             *held = match held {
                 Some(_) => None,
-                None => Some(app.snapshot.get_untracked().log),
+                None => Some(app.snapshot.with_untracked(|snapshot| snapshot.log.clone())),
             };
         });
     };
@@ -88,7 +92,7 @@ pub(crate) fn Frames() -> impl IntoView {
                         </tr>
                     </thead>
                     <tbody>
-                        {move || log.get().into_iter().map(|entry| view! { <EntryRow entry=entry chosen=chosen choose=choose /> }).collect_view()}
+                        {(0..ENTRIES).map(|index| view! { <Row index=index log=log chosen=chosen choose=choose /> }).collect_view()}
                     </tbody>
                 </table>
             </div>
@@ -98,41 +102,77 @@ pub(crate) fn Frames() -> impl IntoView {
     }
 }
 
+/// A row, made anew only when its shape changes; what is in it follows the log.
 #[component]
-fn EntryRow(
-    entry: Entry,
+fn Row(
+    index: usize,
+    log: Memo<Vec<Entry>>,
     chosen: RwSignal<Option<Entry>>,
-    choose: impl Fn(Entry) + Copy + 'static,
+    choose: impl Fn(usize) + Copy + Send + Sync + 'static,
 ) -> impl IntoView {
-    let bytes = entry.bytes.iter().map(|(byte, class)| {
-        view! { <span class=format!("byte {class}")>{format!("{byte:02X}")}</span> }
-    });
-    let bytes = bytes.collect_view();
-    let verdict = match entry.ok {
-        Some(true) => ("verdict good", "✓".to_owned()),
-        Some(false) => ("verdict bad", entry.text.clone()),
-        None => ("verdict", entry.text.clone()),
+    let shape = Memo::new(move |_| log.with(|log| log.get(index).map(Shape::of)));
+    let time = move || log.with(|log| log.get(index).map(|entry| format!("{:.4}", entry.time)));
+    let byte = move |place: usize| {
+        log.with(|log| {
+            let (byte, _) = log.get(index)?.bytes.get(place)?;
+            Some(format!("{byte:02X}"))
+        })
     };
-    let (direction, arrow) = if entry.sent {
-        ("sent", "→")
-    } else {
-        ("received", "←")
+    let is_chosen = move || {
+        let is = |log: &Vec<Entry>| {
+            chosen.with(|chosen| chosen.is_some() && chosen.as_ref() == log.get(index))
+        };
+        log.with(is)
     };
-    let mine = entry.clone();
-    let is_chosen = move || chosen.get().as_ref() == Some(&mine);
-    let (ok, time) = (entry.ok, entry.time);
-    view! {
-        <tr
-            class:chosen=is_chosen
-            data-testid="frame-row"
-            data-direction=direction
-            data-ok=ok.map(|ok| ok.to_string())
-            on:click=move |_| choose(entry.clone())
-        >
-            <td class="time"><button class="quiet" title="Explain these bytes">{format!("{time:.4}")}</button></td>
-            <td title=direction>{arrow}</td>
-            <td class="bytes">{bytes}</td>
-            <td class=verdict.0>{verdict.1}</td>
-        </tr>
+    move || {
+        let shape = shape.get()?;
+        let classes = shape.classes.into_iter().enumerate();
+        let bytes = classes.map(|(place, class)| {
+            view! { <span class=format!("byte {class}")>{move || byte(place)}</span> }
+        });
+        let verdict = match shape.ok {
+            Some(true) => ("verdict good", "✓".to_owned()),
+            Some(false) => ("verdict bad", shape.text),
+            None => ("verdict", shape.text),
+        };
+        let (direction, arrow) = if shape.sent {
+            ("sent", "→")
+        } else {
+            ("received", "←")
+        };
+        Some(view! {
+            <tr
+                class:chosen=is_chosen
+                data-testid="frame-row"
+                data-direction=direction
+                data-ok=shape.ok.map(|ok| ok.to_string())
+                on:click=move |_| choose(index)
+            >
+                <td class="time"><button class="quiet" title="Explain these bytes">{time}</button></td>
+                <td title=direction>{arrow}</td>
+                <td class="bytes">{bytes.collect_view()}</td>
+                <td class=verdict.0>{verdict.1}</td>
+            </tr>
+        })
+    }
+}
+
+/// An entry without its time and its values.
+#[derive(Clone, Debug, PartialEq)]
+struct Shape {
+    sent: bool,
+    ok: Option<bool>,
+    text: String,
+    classes: Vec<String>,
+}
+
+impl Shape {
+    fn of(entry: &Entry) -> Self {
+        Self {
+            sent: entry.sent,
+            ok: entry.ok,
+            text: entry.text.clone(),
+            classes: entry.bytes.iter().map(|(_, class)| class.clone()).collect(),
+        }
     }
 }

@@ -7,7 +7,7 @@ pub(crate) use chart::{Canvas, Chart};
 use crate::app::App;
 use chart::{ChartView, Height, text, value_at};
 use encoderscope_web::{
-    message::ToEngine,
+    message::{Shown, ToEngine},
     plot::{Plot, PlotRequest, Quantity, Rest, Stretch},
 };
 use leptos::prelude::*;
@@ -23,6 +23,8 @@ const PATIENCE: u32 = 10;
 /// What the engine has answered.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Feed {
+    /// The last good reading, as fast as the page draws.
+    pub(crate) reading: RwSignal<Option<Shown>>,
     pub(crate) plot: RwSignal<Plot>,
     pub(crate) rest: RwSignal<Option<Rest>>,
 }
@@ -30,6 +32,7 @@ pub(crate) struct Feed {
 impl Feed {
     pub(crate) fn new() -> Self {
         Self {
+            reading: RwSignal::new(None),
             plot: RwSignal::new(Plot::default()),
             rest: RwSignal::new(None),
         }

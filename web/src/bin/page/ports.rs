@@ -205,7 +205,9 @@ impl App {
 
     /// A port was plugged in: reads on where reading ended with the plug pulled out.
     pub(crate) fn plugged(self) {
-        let lost = self.snapshot.get_untracked().link == Link::Lost;
+        let lost = self
+            .snapshot
+            .with_untracked(|snapshot| snapshot.link == Link::Lost);
         if lost && self.source.get_untracked() == Source::Port {
             self.connect();
         } else {
@@ -220,7 +222,7 @@ impl App {
 
     /// Reads on where the news of a plug put back has overtaken that of its being pulled out.
     pub(crate) fn follow_plug(self) {
-        let lost = self.snapshot.get().link == Link::Lost;
+        let lost = self.snapshot.with(|snapshot| snapshot.link == Link::Lost);
         if lost && self.just_plugged.get() && self.source.get_untracked() == Source::Port {
             self.just_plugged.set(false);
             self.connect();
@@ -229,7 +231,9 @@ impl App {
 
     /// Chooses a port, and the encoder that was behind it last.
     pub(crate) fn choose_port(self, port: PortId) {
-        let open = self.snapshot.get_untracked().link.is_open();
+        let open = self
+            .snapshot
+            .with_untracked(|snapshot| snapshot.link.is_open());
         self.port.set(Some(port));
         self.any_rate.set(false);
         if let Some(profile) = adapters::recall(port) {

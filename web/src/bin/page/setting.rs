@@ -5,7 +5,7 @@ use crate::{
     eeprom::{Eeprom, byte_text},
 };
 use encoderscope::{format::Format, profile::Profile, sequence::Change};
-use encoderscope_web::message::{Link, Progress, STILL, Setting, Shown, ToEngine};
+use encoderscope_web::message::{Link, Progress, STILL, Setting, Shown, Snapshot, ToEngine};
 use leptos::prelude::*;
 
 /// What can be set with a profile.
@@ -69,8 +69,8 @@ enum Phase {
 pub(crate) fn SettingPanel() -> impl IntoView {
     let app = expect_context::<App>();
     let chosen = RwSignal::new(None::<Setting>);
-    let progress = Memo::new(move |_| app.snapshot.get().progress);
-    let reading = move || app.snapshot.get().link == Link::Reading;
+    let progress = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.progress.clone()));
+    let reading = move || app.snapshot.with(|snapshot| snapshot.link == Link::Reading);
     let settings = Memo::new(move |_| offered(&app.profile.get()));
     // What was chosen for one encoder is not done to another.
     let target = Memo::new(move |_| (reading(), app.port.get(), app.profile.get()));
@@ -87,7 +87,7 @@ pub(crate) fn SettingPanel() -> impl IntoView {
                 view! {
                     <button
                         data-testid=if start { "zero-start" } else { "setting-start" }
-                        disabled=move || !reading() || app.snapshot.get().busy
+                        disabled=move || !reading() || app.snapshot.with(|snapshot| snapshot.busy)
                         on:click=move |_| chosen.set(Some(setting))
                     >
                         {title(setting)} "…"
@@ -143,14 +143,14 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
         let parsed = address.get().trim().parse::<u8>().ok();
         parsed.filter(|address| *address < 32)
     });
-    let moved = Memo::new(move |_| app.snapshot.get().moved);
-    let held = Memo::new(move |_| app.snapshot.get().memory.and_then(|cell| cell.data));
+    let moved = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.moved));
+    let held = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.memory?.data));
     let still = move || moved.get().is_some_and(|moved| moved < STILL);
     let ready = move || {
         let rest = !setting.needs_rest() || still();
         let fits = !matches!(setting, Setting::Address(_)) || wanted.get().is_some();
-        let snapshot = app.snapshot.get();
-        rest && fits && snapshot.link == Link::Reading && !snapshot.busy
+        let free = |snapshot: &Snapshot| snapshot.link == Link::Reading && !snapshot.busy;
+        rest && fits && app.snapshot.with(free)
     };
     let gate = move || match moved.get() {
         None => ("lamp idle", "waiting for a second of readings".to_owned()),
@@ -278,11 +278,10 @@ fn Ended(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoView
             false => before.map(|before| position(&before)),
         };
         let now = move || {
-            let snapshot = app.snapshot.get();
-            match in_memory {
-                true => snapshot.memory.and_then(|cell| cell.data).map(byte_text),
+            app.snapshot.with(|snapshot| match in_memory {
+                true => snapshot.memory?.data.map(byte_text),
                 false => snapshot.reading.map(|shown| position(&shown)),
-            }
+            })
         };
         view! {
             <p class=tone data-testid="zero-outcome" data-value=changed>{outcome.text}</p>

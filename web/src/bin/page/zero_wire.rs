@@ -152,9 +152,9 @@ pub(crate) fn ZeroWire() -> impl IntoView {
     let task = RwSignal::new(None::<Task>);
     let fits = Memo::new(move |_| matches!(app.profile.get().format, Format::Asi1 | Format::Asi4));
     Effect::new(move || {
-        let snapshot = app.snapshot.get();
+        app.snapshot.track();
         if let Some(begun) = task.get_untracked() {
-            let next = begun.after(&snapshot, now());
+            let next = app.snapshot.with(|snapshot| begun.after(snapshot, now()));
             if next != begun {
                 task.set(Some(next));
             }
@@ -165,9 +165,9 @@ pub(crate) fn ZeroWire() -> impl IntoView {
             task.set(None);
         }
     });
-    let reading = Memo::new(move |_| app.snapshot.get().link == Link::Reading);
+    let reading = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.link == Link::Reading));
     let begin = move |input: Input| {
-        if let Some(before) = app.snapshot.get_untracked().reading {
+        if let Some(before) = app.snapshot.with_untracked(|snapshot| snapshot.reading) {
             task.set(Some(Task {
                 input,
                 before,
@@ -205,7 +205,7 @@ pub(crate) fn ZeroWire() -> impl IntoView {
 fn Stored() -> impl IntoView {
     let app = expect_context::<App>();
     let stored = Memo::new(move |_| {
-        let reading = app.snapshot.get().reading;
+        let reading = app.snapshot.with(|snapshot| snapshot.reading);
         reading.and_then(|shown| shown.zero_default)
     });
     let text = move || match stored.get() {

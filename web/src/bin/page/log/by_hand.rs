@@ -37,13 +37,14 @@ pub(crate) fn ByHand(sent: Callback<()>) -> impl IntoView {
     let fault = RwSignal::new(None::<String>);
     let question = RwSignal::new(None::<(Vec<u8>, String)>);
     let open = Memo::new(move |_| {
-        let snapshot = app.snapshot.get();
-        let reads = !matches!(snapshot.link, Link::Opening | Link::Searching);
-        snapshot.link.is_open() && reads && !snapshot.busy
+        app.snapshot.with(|snapshot| {
+            let reads = !matches!(snapshot.link, Link::Opening | Link::Searching);
+            snapshot.link.is_open() && reads && !snapshot.busy
+        })
     });
     // What was asked about one encoder is not sent to another.
     let target = Memo::new(move |_| {
-        let open = app.snapshot.get().link.is_open();
+        let open = app.snapshot.with(|snapshot| snapshot.link.is_open());
         (open, app.port.get(), app.profile.get())
     });
     Effect::new(move || {

@@ -216,11 +216,10 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
             chart.remove();
         }
     });
-    let says = move || {
-        view.feed
-            .plot
-            .with(|plot| summary(trace_of(plot, quantity), quantity))
-    };
+    let says = Memo::new(move |_| {
+        let says = |plot: &Plot| summary(trace_of(plot, quantity), quantity);
+        view.feed.plot.with(says)
+    });
     view! {
         <figure class="chart">
             <figcaption>
@@ -232,7 +231,7 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
                 node_ref=place
                 tabindex="0"
                 role="img"
-                aria-label=move || format!("{} over time: {}", quantity.name(), says())
+                aria-label=move || format!("{} over time: {}", quantity.name(), says.get())
                 data-testid=format!("chart-{}", quantity.name())
             ></div>
         </figure>
