@@ -18,14 +18,19 @@ export const recorded = () =>
     .map((name) => JSON.parse(readFileSync(`${folder}${name}`, 'utf8')))
     .sort((one, other) => one.at - other.at);
 
-/** Resident memory of the browser's renderers, in bytes. */
-export const resident = async (browser) => {
+/** The processes of the browser's renderers. */
+const ofRenderers = async (browser) => {
   const session = await browser.newBrowserCDPSession();
   const { processInfo } = await session.send('SystemInfo.getProcessInfo');
   await session.detach();
-  const kilobytes = processInfo
-    .filter(({ type }) => type === 'renderer')
-    .map(({ id }) => Number(/^RssAnon:\s*(\d+)/m.exec(readFileSync(`/proc/${id}/status`, 'utf8'))?.[1] ?? 0));
+  return processInfo.filter(({ type }) => type === 'renderer').map(({ id }) => id);
+};
+
+/** Resident memory of the browser's renderers, in bytes. */
+export const resident = async (browser) => {
+  const kilobytes = (await ofRenderers(browser)).map((id) =>
+    Number(/^RssAnon:\s*(\d+)/m.exec(readFileSync(`/proc/${id}/status`, 'utf8'))?.[1] ?? 0),
+  );
   return kilobytes.reduce((sum, more) => sum + more, 0) * 1024;
 };
 
@@ -44,12 +49,24 @@ export const watch = (page) =>
     requestAnimationFrame(frame);
   });
 
-/** The share of the time in which the main thread did something, between two looks. */
+/** Seconds of processor time that the main thread of a process has had. */
+const processor = (id) => {
+  const stat = readFileSync(`/proc/${id}/task/${id}/stat`, 'utf8');
+  const [user, system] = stat.slice(stat.lastIndexOf(')') + 2).split(' ').slice(11, 13);
+  return (Number(user) + Number(system)) / 100;
+};
+
+/**
+ * The share of the time in which the main thread was busy, between two looks: the processor time it took,
+ * and how long its tasks lasted, waiting for a processor included.
+ */
 export class Busy {
-  static async begin(page) {
+  static async begin(page, browser) {
     const busy = new Busy();
     busy.session = await page.context().newCDPSession(page);
     await busy.session.send('Performance.enable', { timeDomain: 'timeTicks' });
+    const renderers = await ofRenderers(browser);
+    busy.id = renderers.sort((one, other) => processor(other) - processor(one))[0];
     busy.before = await busy.look();
     return busy;
   }
@@ -57,12 +74,13 @@ export class Busy {
   async look() {
     const { metrics } = await this.session.send('Performance.getMetrics');
     const of = (name) => metrics.find((metric) => metric.name === name).value;
-    return { tasks: of('TaskDuration'), at: of('Timestamp'), heap: of('JSHeapUsedSize') };
+    return { tasks: of('TaskDuration'), at: of('Timestamp'), processor: processor(this.id) };
   }
 
-  async share() {
+  async shares() {
     const now = await this.look();
-    return (now.tasks - this.before.tasks) / (now.at - this.before.at);
+    const share = (of) => (now[of] - this.before[of]) / (now.at - this.before.at);
+    return { processor: share('processor'), tasks: share('tasks') };
   }
 }
 

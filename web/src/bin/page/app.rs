@@ -16,6 +16,7 @@ use encoderscope_web::{
     serial,
 };
 use leptos::{ev, prelude::*};
+use std::time::Duration;
 
 /// What the dial shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -401,6 +402,28 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
             }}
         </main>
     }
+}
+
+/// Does something once the next picture of the page has been drawn.
+pub(crate) fn after_picture(then: impl FnOnce() + 'static) {
+    request_animation_frame(move || set_timeout(then, Duration::ZERO));
+}
+
+/// The pieces of a view, one with each picture, so that what the user does meanwhile is heard
+/// between them.
+pub(crate) fn in_pieces<const N: usize>() -> [Memo<bool>; N] {
+    let made = RwSignal::new(0);
+    make_next(made, N);
+    std::array::from_fn(|place| Memo::new(move |_| made.get() > place))
+}
+
+fn make_next(made: RwSignal<usize>, all: usize) {
+    after_picture(move || {
+        made.try_update(|made| *made += 1);
+        if made.try_get_untracked().is_some_and(|made| made < all) {
+            make_next(made, all);
+        }
+    });
 }
 
 fn location_hash() -> String {

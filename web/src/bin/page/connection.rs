@@ -1,14 +1,14 @@
 //! The page's end of the engine: a dedicated worker where it can reach serial ports, else an
 //! engine on the page itself.
 
-use crate::{Workers, plot::Feed};
+use crate::{Workers, app::after_picture, plot::Feed};
 use encoderscope_web::{
     browser::Peer,
     message::{FromEngine, Snapshot, ToEngine},
     serial,
 };
 use leptos::prelude::*;
-use std::{cell::RefCell, rc::Rc, time::Duration};
+use std::{cell::RefCell, rc::Rc};
 use wasm_bindgen::{JsCast, prelude::Closure};
 use web_sys::MessageEvent;
 
@@ -57,9 +57,7 @@ impl Connection {
             feed,
         };
         let starting = connection.clone();
-        request_animation_frame(move || {
-            set_timeout(move || starting.start(broken), Duration::ZERO);
-        });
+        after_picture(move || starting.start(broken));
         connection
     }
 

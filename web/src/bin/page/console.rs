@@ -1,7 +1,7 @@
 //! The console: what is on it, and its first view.
 
 use crate::{
-    app::{App, Source},
+    app::{App, Source, in_pieces},
     devices::DevicesPanel,
     finder::{FindButton, SearchPanel},
     link_panel::LinkPanel,
@@ -34,12 +34,13 @@ pub(crate) fn Console() -> impl IntoView {
 /// The first view: three doors, and what is behind them in small.
 #[component]
 fn Preview() -> impl IntoView {
+    let [angle, status, frames] = in_pieces();
     view! {
         <Welcome />
         <div class="stage">
-            <Angle />
-            <div class="side"><Status /></div>
-            <Frames />
+            {move || angle.get().then(|| view! { <Angle /> })}
+            <div class="side">{move || status.get().then(|| view! { <Status /> })}</div>
+            {move || frames.get().then(|| view! { <Frames /> })}
         </div>
     }
 }

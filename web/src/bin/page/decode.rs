@@ -10,7 +10,7 @@ mod rows;
 mod share;
 
 use crate::{
-    app::{App, Place},
+    app::{App, Place, in_pieces},
     desk::Choice,
     frame_view::FrameView,
     profile_editor::{Offer, ProfileEditor},
@@ -76,7 +76,7 @@ pub(crate) fn Decode() -> impl IntoView {
             desk.send(ToDesk::Explain(index));
         }
     });
-    let empty = move || desk.is_empty();
+    let empty = Memo::new(move |_| desk.is_empty());
     let own = Memo::new(move |_| app.profile.get().format == Format::Own);
     view! {
         <div class="decode">
@@ -93,7 +93,7 @@ pub(crate) fn Decode() -> impl IntoView {
                 <Share />
             </section>
             <div class="results">
-                {move || match empty() {
+                {move || match empty.get() {
                     true => view! {
                         <section class="panel">
                             <h2>"Frames"</h2>
@@ -102,13 +102,9 @@ pub(crate) fn Decode() -> impl IntoView {
                             </p>
                         </section>
                     }.into_any(),
-                    false => view! {
-                        <Figures />
-                        <Rows shown=shown />
-                        <AngleChart />
-                    }.into_any(),
+                    false => view! { <Results shown=shown /> }.into_any(),
                 }}
-                {move || desk.explained.get().filter(|_| !empty()).map(|explained| view! {
+                {move || desk.explained.get().filter(|_| !empty.get()).map(|explained| view! {
                     <section class="panel detail">
                         <h2>
                             {format!("Row {}", grouped(explained.index as u64 + 1))}
@@ -124,6 +120,17 @@ pub(crate) fn Decode() -> impl IntoView {
             </div>
             <Report />
         </div>
+    }
+}
+
+/// What the input says.
+#[component]
+fn Results(shown: Memo<Option<usize>>) -> impl IntoView {
+    let [figures, rows, chart] = in_pieces();
+    view! {
+        {move || figures.get().then(|| view! { <Figures /> })}
+        {move || rows.get().then(|| view! { <Rows shown=shown /> })}
+        {move || chart.get().then(|| view! { <AngleChart /> })}
     }
 }
 

@@ -1,9 +1,11 @@
 //! The raw log: every frame with its time, direction, bytes and verdict.
 
 mod by_hand;
+mod controls;
 mod inspect;
 
 pub(crate) use by_hand::ByHand;
+pub(crate) use controls::Controls;
 pub(crate) use inspect::Inspect;
 
 use crate::{
@@ -13,74 +15,63 @@ use crate::{
 use encoderscope_web::message::{ENTRIES, Entry, LogFilter, ToEngine};
 use leptos::prelude::*;
 
+/// What is looked at of the log.
+#[derive(Clone, Copy)]
+pub(crate) struct LogView {
+    filter: RwSignal<LogFilter>,
+    /// The entries that are looked at while the log goes on.
+    held: RwSignal<Option<Vec<Entry>>>,
+    chosen: RwSignal<Option<Entry>>,
+}
+
+impl LogView {
+    fn new() -> Self {
+        Self {
+            filter: RwSignal::new(LogFilter::All),
+            held: RwSignal::new(None),
+            chosen: RwSignal::new(None),
+        }
+    }
+
+    fn go_on(self) {
+        self.chosen.set(None);
+        self.held.set(None);
+    }
+
+    fn show(self, app: App, wanted: LogFilter) {
+        self.filter.set(wanted);
+        self.held.set(None);
+        app.send(ToEngine::Log(wanted));
+    }
+}
+
 #[component]
 pub(crate) fn Frames() -> impl IntoView {
     let app = expect_context::<App>();
-    let filter = RwSignal::new(LogFilter::All);
-    let held = RwSignal::new(None::<Vec<Entry>>);
-    let chosen = RwSignal::new(None::<Entry>);
+    let view = LogView::new();
     app.send(ToEngine::Log(LogFilter::All));
     // What was chosen is explained by the profile that it came with.
     Effect::new(move || {
         app.profile.track();
-        chosen.set(None);
-        held.set(None);
+        view.go_on();
     });
     let log = Memo::new(move |_| {
-        held.get()
-            .unwrap_or_else(|| app.snapshot.with(|snapshot| snapshot.log.clone()))
+        let held = view.held.get();
+        held.unwrap_or_else(|| app.snapshot.with(|snapshot| snapshot.log.clone()))
     });
     let choose = move |index: usize| {
         // A row that runs away cannot be looked at.
         let log = log.get_untracked();
-        chosen.set(log.get(index).cloned());
-        held.set(Some(log));
+        view.chosen.set(log.get(index).cloned());
+        view.held.set(Some(log));
     };
-    let show = move |wanted: LogFilter| {
-        filter.set(wanted);
-        held.set(None);
-        app.send(ToEngine::Log(wanted));
-    };
-    let close = Callback::new(move |()| {
-        chosen.set(None);
-        held.set(None);
-    });
-    let sent = Callback::new(move |()| show(LogFilter::Beside));
-    let pause = move |_| {
-        held.update(|held| {
-            *held = match held {
-                Some(_) => None,
-                None => Some(app.snapshot.with_untracked(|snapshot| snapshot.log.clone())),
-            };
-        });
-    };
-    let filters = [
-        (LogFilter::All, "all"),
-        (LogFilter::Received, "received"),
-        (LogFilter::Sent, "sent"),
-        (LogFilter::Faults, "faults"),
-        (LogFilter::Beside, "other"),
-    ];
+    let close = Callback::new(move |()| view.go_on());
+    let sent = Callback::new(move |()| view.show(app, LogFilter::Beside));
+    let reads = move || app.source.get() != Source::Preview;
     view! {
         <section class="panel frames">
             <h2>"Frames"</h2>
-            <div class="doors bar-of" role="group" aria-label="Which frames">
-                {filters.map(|(wanted, text)| view! {
-                    <button
-                        class="quiet"
-                        class:chosen=move || filter.get() == wanted
-                        aria-pressed=move || (filter.get() == wanted).to_string()
-                        data-testid="log-filter"
-                        data-value=text
-                        on:click=move |_| show(wanted)
-                    >
-                        {text}
-                    </button>
-                }).collect_view()}
-                <button class="quiet" data-testid="log-pause" aria-pressed=move || held.get().is_some().to_string() on:click=pause>
-                    {move || if held.get().is_some() { "go on" } else { "pause" }}
-                </button>
-            </div>
+            {move || reads().then(|| later(move || parts::log_controls(view), || ()))}
             <div class="rows-of">
                 <table>
                     <thead>
@@ -92,12 +83,12 @@ pub(crate) fn Frames() -> impl IntoView {
                         </tr>
                     </thead>
                     <tbody>
-                        {(0..ENTRIES).map(|index| view! { <Row index=index log=log chosen=chosen choose=choose /> }).collect_view()}
+                        {(0..ENTRIES).map(|index| view! { <Row index=index log=log chosen=view.chosen choose=choose /> }).collect_view()}
                     </tbody>
                 </table>
             </div>
-            {move || chosen.get().map(|entry| later(move || parts::inspect(entry.clone(), close), || ()))}
-            {move || (app.source.get() != Source::Preview).then(|| later(move || parts::by_hand(sent), || ()))}
+            {move || view.chosen.get().map(|entry| later(move || parts::inspect(entry.clone(), close), || ()))}
+            {move || reads().then(|| later(move || parts::by_hand(sent), || ()))}
         </section>
     }
 }

@@ -9,7 +9,7 @@ use crate::{
     console::Live,
     decode::Decode,
     explain::Explain,
-    log::{ByHand, Inspect},
+    log::{ByHand, Controls, Inspect, LogView},
     profile_editor::{Offer, ProfileEditor},
     reference::Reference,
 };
@@ -51,6 +51,12 @@ pub(crate) fn live() -> Part {
 #[wasm_split(live, wasm_split_path = leptos::wasm_split, fallible)]
 pub(crate) fn settings() -> Part {
     Ok(view! { <ProfileEditor offer=Offer::Serial /> }.into_any())
+}
+
+/// Which entries the log shows.
+#[wasm_split(live, wasm_split_path = leptos::wasm_split, fallible)]
+pub(crate) fn log_controls(view: LogView) -> Part {
+    Ok(view! { <Controls view=view /> }.into_any())
 }
 
 /// The chosen bytes of the log.
