@@ -307,31 +307,47 @@ impl App {
             None => address,
         }
     }
+
+    /// Lets the engine and the ports have their say; `bare` is an address that names no encoder.
+    fn begin(self, bare: bool) {
+        let app = self;
+        Effect::new(move || app.follow_profile());
+        Effect::new(move || app.follow_plug());
+        // The engine says which device of a BUS is on the dial: settings go to that one.
+        let watched = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.watched));
+        Effect::new(move || {
+            if let Some(address) = watched.get() {
+                app.adopt_address(address);
+            }
+        });
+        Effect::new(move || {
+            if app.broken.get() {
+                match app.source.get_untracked() {
+                    Source::Port => app.obstacle.set(Some(Obstacle::BrokeDown)),
+                    source => app.demo(source),
+                }
+            }
+        });
+
+        serial::on_plugged(move || app.plugged());
+        leptos::task::spawn_local(async move {
+            app.refresh_ports().await;
+            if let ([only], true) = (&app.ports.get_untracked()[..], bare)
+                && adapters::is_known(*only)
+            {
+                // Without the network the encoder's settings are as good as new.
+                let _ = parts::recall(app, *only).await;
+            }
+        });
+    }
 }
 
 /// The whole page.
 pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
     let app = App::new(workers);
     provide_context(app);
+    let bare = Fragment::parse(&location_hash()).parameters.is_empty();
     app.follow_link(&location_hash());
-    Effect::new(move || app.follow_profile());
-    Effect::new(move || app.follow_plug());
-    // The engine says which device of a BUS is on the dial: settings go to that one.
-    let watched = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.watched));
-    Effect::new(move || {
-        if let Some(address) = watched.get() {
-            app.adopt_address(address);
-        }
-    });
-    Effect::new(move || {
-        if app.broken.get() {
-            match app.source.get_untracked() {
-                Source::Port => app.obstacle.set(Some(Obstacle::BrokeDown)),
-                source => app.demo(source),
-            }
-        }
-    });
-
     // The address bar may have been brought up to date since the link was followed.
     let hash = window_event_listener(ev::hashchange, move |event| {
         let address = event.new_url();
@@ -349,17 +365,9 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
                 history.replace_state_with_url(&wasm_bindgen::JsValue::NULL, "", Some(&fragment));
         }
     });
-    serial::on_plugged(move || app.plugged());
-    let bare = Fragment::parse(&location_hash()).parameters.is_empty();
-    leptos::task::spawn_local(async move {
-        app.refresh_ports().await;
-        if let ([only], true) = (&app.ports.get_untracked()[..], bare)
-            && adapters::is_known(*only)
-        {
-            // Without the network the encoder's settings are as good as new.
-            let _ = parts::recall(app, *only).await;
-        }
-    });
+    // Nothing of this is needed for the first picture.
+    let owner = app.owner.get_value();
+    after_picture(move || owner.with(|| app.begin(bare)));
 
     view! {
         <header class="bar">
