@@ -36,7 +36,7 @@ for (const query of [
     // Nothing is known of the encoder.
     await page.goto('/#/console?format=t485&angle-bits=20');
     await at(page, 'find').click();
-    await expectLink(page, 'searching');
+    // A stream may be found before anyone sees the search.
     const { found, profile, verdict } = await best(page);
     for (const [name, value] of new URLSearchParams(query)) {
       expect(profile.get(name), name).toBe(value);

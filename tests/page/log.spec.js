@@ -146,3 +146,27 @@ test('status lamps, their remedies and the blinking LED', async ({ page }) => {
   await until(page, 'frames-bad', (bad) => bad > 10);
   await until(page, 'error-rate', (rate) => rate > 0.2);
 });
+
+test('the dial follows every picture, figures and log a few times a second', async ({ page }) => {
+  await page.goto('/#/console?format=t485&angle-bits=23');
+  await at(page, 'demo').click();
+  await expectLink(page, 'reading');
+  await filter(page, 'received').click();
+  await until(page, 'frames-ok', (frames) => frames > 500);
+  const { angles, counts, stays } = await page.evaluate(async () => {
+    const value = (id) => document.querySelector(`[data-testid=${id}]`).dataset.value;
+    const row = document.querySelector('[data-testid=frame-row]');
+    const [angles, counts] = [new Set(), new Set()];
+    for (const end = performance.now() + 3_000; performance.now() < end; ) {
+      await new Promise(requestAnimationFrame);
+      angles.add(value('angle'));
+      counts.add(value('frames-ok'));
+    }
+    return { angles: angles.size, counts: counts.size, stays: row.isConnected };
+  });
+  expect(counts).toBeGreaterThan(3);
+  expect(counts).toBeLessThan(19);
+  expect(angles).toBeGreaterThan(2 * counts);
+  // What is in the rows changes, not the rows.
+  expect(stays).toBe(true);
+});

@@ -22,8 +22,8 @@ fn is_fresh(snapshot: &Snapshot) -> bool {
 #[component]
 pub(crate) fn Angle() -> impl IntoView {
     let app = expect_context::<App>();
-    let shown = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.reading));
-    let now = app.feed.reading;
+    // All of it from one frame.
+    let shown = app.feed.reading;
     let stale = move || shown.get().is_some() && !app.snapshot.with(is_fresh);
     let heading = move || match app.source.get() {
         Source::Port => "Angle",
@@ -44,8 +44,9 @@ pub(crate) fn Angle() -> impl IntoView {
                     read: fn(&Shown) -> Option<f64>,
                     write: fn(f64) -> String| {
         let value = Memo::new(move |_| shown.get().and_then(|shown| read(&shown)));
+        let exists = Memo::new(move |_| value.get().is_some());
         move || {
-            value.get().map(|_| {
+            exists.get().then(|| {
                 let raw = move || value.get().unwrap_or_default();
                 view! {
                     <dt>{label}</dt>
@@ -58,10 +59,10 @@ pub(crate) fn Angle() -> impl IntoView {
     };
     view! {
         <section class="panel angle" class:stale=stale>
-            <Dial degrees=Signal::derive(move || now.get().map(|shown| shown.degrees)) />
+            <Dial degrees=Signal::derive(move || shown.get().map(|shown| shown.degrees)) />
             <div class="figures">
                 <h2>{heading}</h2>
-                <AngleDigits shown=now />
+                <AngleDigits shown=shown />
                 <p class="of">{move || counts().unwrap_or_else(|| "no reading yet".into())}</p>
                 <dl>
                     {row("turns", "turns", |shown| shown.turns, |turns| grouped_signed(turns as i64))}
