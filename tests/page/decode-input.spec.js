@@ -199,6 +199,24 @@ test('a link carries profile and frames, short and old ones too', async ({ page,
   await expect(at(again, 'dump-row')).toHaveAttribute('data-angle', '3915817');
 });
 
+test('what is typed is shared at once', async ({ page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.goto('/#/decode?format=t485');
+  await paste(page, good);
+  await expect(at(page, 'dump-row')).toHaveCount(1);
+  // In one task, before the box would be read by itself.
+  await page.evaluate(() => {
+    const box = document.querySelector('[data-testid=dump-input]');
+    box.value = '02 20 b4 bd 1c 37 // later';
+    box.dispatchEvent(new InputEvent('input', { bubbles: true }));
+    document.querySelector('[data-testid=share]').click();
+  });
+  await expect(at(page, 'said')).toHaveText('Link copied.');
+  const again = await context.newPage();
+  await again.goto(await page.evaluate(() => navigator.clipboard.readText()));
+  await expect(at(again, 'dump-input')).toHaveValue('02 20 b4 bd 1c 37 // later');
+});
+
 test('a broken link says so, and the page goes on', async ({ page }) => {
   for (const payload of ['1.CzFMVDAyUDCy', '1.CzFMVDAyUDCyVEg2UDBOUjA0VzAwgKJkCwVjc0mDinAA', '1.%25%25', '1.', 'x', '9.abc']) {
     await page.goto('about:blank');

@@ -337,18 +337,29 @@ impl Desk {
         if let Some(before) = self.typing.get_value() {
             before.clear();
         }
-        let send = move || {
-            let text = self.text.get_untracked();
-            if self.sent.with_value(|sent| *sent != text) {
-                self.sent.set_value(text.clone());
-                self.send(ToDesk::Text {
-                    text,
-                    profile: profile.clone(),
-                });
-            }
-        };
+        let send = move || self.hand_over(&profile);
         self.typing
             .set_value(set_timeout_with_handle(send, TYPED).ok());
+    }
+
+    /// Sends the text of the box, where the worker does not have it yet.
+    fn hand_over(self, profile: &str) {
+        let text = self.text.get_untracked();
+        if self.file.with_untracked(Option::is_none) && self.sent.with_value(|sent| *sent != text) {
+            self.sent.set_value(text.clone());
+            self.send(ToDesk::Text {
+                text,
+                profile: profile.to_owned(),
+            });
+        }
+    }
+
+    /// Asks for something that is made of what stands in the box now.
+    pub(crate) fn ask(self, message: ToDesk) {
+        if let Some(profile) = self.profile.get_value() {
+            self.hand_over(&query(&profile));
+        }
+        self.send(message);
     }
 
     /// A file was chosen, or so much was pasted that it is better not shown.
@@ -410,7 +421,7 @@ impl Desk {
 
     /// Packs the input for a link.
     pub(crate) fn share(self) {
-        self.send(ToDesk::Share(self.shares.get_value()));
+        self.ask(ToDesk::Share(self.shares.get_value()));
     }
 
     /// Puts the input into the link when it has stayed as it is for a while.

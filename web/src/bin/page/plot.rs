@@ -395,7 +395,6 @@ fn Controls(view: View) -> impl IntoView {
             move || quantity == Quantity::Angle || available.with(|all| all.contains(&quantity));
         view! {
             <button
-                class=quantity.name()
                 data-testid=format!("plot-{}", quantity.name())
                 aria-pressed=move || view.is_shown(quantity).to_string()
                 hidden=move || !offered()

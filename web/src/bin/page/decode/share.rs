@@ -33,7 +33,7 @@ pub(super) fn Share() -> impl IntoView {
             Some(Err(why)) => {
                 wanted.set(false);
                 said.set(Some(format!("{why} A file was saved instead: send that.")));
-                desk.send(ToDesk::Export(FileKind::Recording));
+                desk.ask(ToDesk::Export(FileKind::Recording));
             }
         }
     });
@@ -45,13 +45,13 @@ pub(super) fn Share() -> impl IntoView {
     };
     let file = move |kind: FileKind, title: &'static str, id: &'static str| {
         view! {
-            <button data-testid=id on:click=move |_| desk.send(ToDesk::Export(kind))>{title}</button>
+            <button data-testid=id on:click=move |_| desk.ask(ToDesk::Export(kind))>{title}</button>
         }
     };
     let printing = RwSignal::new(false);
     let print = move |_| {
         printing.set(true);
-        desk.send(ToDesk::Report);
+        desk.ask(ToDesk::Report);
     };
     Effect::new(move || {
         desk.report.track();
@@ -71,7 +71,7 @@ pub(super) fn Share() -> impl IntoView {
         }
     });
     let copy_as = move |language: Language| {
-        let copy_source = move |_| desk.send(ToDesk::Source(language.name().into()));
+        let copy_source = move |_| desk.ask(ToDesk::Source(language.name().into()));
         view! {
             <button data-testid="copy-as" data-value=language.name() on:click=copy_source>{language.name()}</button>
         }
