@@ -155,8 +155,11 @@ impl Tally {
 
     /// The last good reading, if nobody has asked for it yet.
     pub fn reading(&mut self) -> Option<Shown> {
+        if !std::mem::take(&mut self.fresh) {
+            return None;
+        }
         let frame = frame_of(self.decoder.as_ref()?, self.last_good.as_ref()?, true)?;
-        std::mem::take(&mut self.fresh).then(|| shown(&frame))?
+        shown(&frame)
     }
 
     /// Bytes have come in.

@@ -4,7 +4,7 @@
 use crate::{Workers, app::after_picture, plot::Feed};
 use encoderscope_web::{
     browser::Peer,
-    message::{FromEngine, Snapshot, ToEngine},
+    message::{FromEngine, Shown, Snapshot, ToEngine},
     serial,
 };
 use leptos::prelude::*;
@@ -38,8 +38,8 @@ enum Seat {
 
 impl Connection {
     /// Starts the engine once the page has been drawn, in a worker where there are workers;
-    /// snapshots go into `snapshot`, the rest of what it says into `feed`. A worker that breaks down is
-    /// replaced by an engine on the page, and `broken` is set.
+    /// snapshots go into `snapshot`, the rest of what it says into `feed`. A worker that breaks
+    /// down is replaced by an engine on the page, and `broken` is set.
     pub(crate) fn new(
         workers: StoredValue<Workers, LocalStorage>,
         snapshot: RwSignal<Snapshot>,
@@ -99,14 +99,21 @@ impl Connection {
             FromEngine::Plot(plot) => self.feed.plot.set(*plot),
             FromEngine::Rest(rest) => self.feed.rest.set(rest.map(|rest| *rest)),
             FromEngine::Reading(reading) => {
-                self.feed.reading.set(Some(reading));
+                self.show(Some(reading));
                 self.want_next();
             }
             FromEngine::Snapshot(new) => {
-                self.feed.reading.set(new.reading);
+                self.show(new.reading);
                 self.snapshot.set(*new);
                 self.want_next();
             }
+        }
+    }
+
+    /// Shows a reading; a shaft at rest is not drawn again.
+    fn show(&self, reading: Option<Shown>) {
+        if self.feed.reading.get_untracked() != reading {
+            self.feed.reading.set(reading);
         }
     }
 

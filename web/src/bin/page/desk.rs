@@ -342,10 +342,19 @@ impl Desk {
             .set_value(set_timeout_with_handle(send, TYPED).ok());
     }
 
+    /// Whether the box has text that the worker does not have.
+    fn is_ahead(self) -> bool {
+        let sent = || {
+            self.sent
+                .with_value(|sent| *sent == self.text.get_untracked())
+        };
+        self.file.with_untracked(Option::is_none) && !sent()
+    }
+
     /// Sends the text of the box, where the worker does not have it yet.
     fn hand_over(self, profile: &str) {
-        let text = self.text.get_untracked();
-        if self.file.with_untracked(Option::is_none) && self.sent.with_value(|sent| *sent != text) {
+        if self.is_ahead() {
+            let text = self.text.get_untracked();
             self.sent.set_value(text.clone());
             self.send(ToDesk::Text {
                 text,
@@ -430,11 +439,8 @@ impl Desk {
             before.clear();
         }
         let share = move || {
-            let typing = self.file.with_untracked(Option::is_none)
-                && self
-                    .sent
-                    .with_value(|sent| *sent != self.text.get_untracked());
-            if self.payload.with_untracked(Option::is_none) && !self.is_empty() && !typing {
+            let bare = self.payload.with_untracked(Option::is_none);
+            if bare && !self.is_empty() && !self.is_ahead() {
                 self.share();
             }
         };
