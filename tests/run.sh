@@ -22,7 +22,7 @@ say "lints"
 cargo clippy -q -p encoderscope -p encoderscope-tests --all-targets -- -D warnings
 wasm_clippy -q -p encoderscope-web --bins -- -D warnings
 wasm_clippy -q -p encoderscope-web --bin element --no-default-features --features element -- -D warnings
-RUSTDOCFLAGS="-D warnings" cargo doc -q --no-deps -p encoderscope
+RUSTDOCFLAGS="-D warnings" cargo doc -q --no-deps -p encoderscope --features pcapng
 
 say "the core, native"
 cargo test -p encoderscope -p encoderscope-tests

@@ -13,6 +13,7 @@
 //! - [`session`]: the host's side of a serial line; [`sequence`]: what changes an encoder;
 //!   [`finder`]: which encoder is on the line; [`doctor`]: how the link is; [`emulator`]: the
 //!   encoder's side of it all; [`conversation`]: what both say while something is changed;
+//! - [`recording`]: what was said on a line, as a file (feature `pcapng`);
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`crc_search`]: the checksum of frames of an unknown format;
 //! - [`export`]: decoders as source, frames as tables;
@@ -63,6 +64,8 @@ pub mod product;
 pub mod profile;
 pub mod reading;
 pub mod record;
+#[cfg(feature = "pcapng")]
+pub mod recording;
 pub mod sequence;
 pub mod session;
 pub mod sheet;

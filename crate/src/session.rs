@@ -138,6 +138,19 @@ impl Session {
         Ok(Self::with(decoder, polls, interval))
     }
 
+    /// A session that asks nothing itself: it reads along while another host asks
+    /// ([`Self::handle_sent`]), or listens to a stream.
+    ///
+    /// # Errors
+    ///
+    /// The format has no serial line.
+    pub fn following(decoder: Decoder) -> Result<Self, Refusal> {
+        match decoder.profile().link() {
+            Link::Clocked => Err(Refusal::NotSerial(decoder.profile().format)),
+            Link::Stream | Link::Polled => Ok(Self::with(decoder, Vec::new(), 0)),
+        }
+    }
+
     fn with(decoder: Decoder, polls: Vec<Ask>, interval: Micros) -> Self {
         Self {
             decoder,
@@ -286,18 +299,49 @@ impl Session {
                     self.state = State::Idle(Micros::MAX);
                     return;
                 };
-                self.asked = ask;
-                let request = self.asked.bytes.clone();
-                let bits = 10 * (self.asked.reply + 2 * request.len()) as u64;
-                let on_wire = bits * 1_000_000 / u64::from(self.decoder.profile().baud);
-                self.output.push_back(Output::Transmit(request));
-                self.state = State::Waiting {
-                    sent: now,
-                    until: now + on_wire + self.timeout,
-                };
+                self.put(now, ask);
             }
             State::Waiting { sent, .. } => self.judge(now, sent),
         }
+    }
+
+    /// Another host has sent this; what it asks is waited for like a request of one's own.
+    ///
+    /// ```
+    /// use encoderscope::{decode::Decoder, profile::Profile, session::{Output, Session}};
+    /// let decoder = Decoder::new(Profile::parse([("format", "t485")])?)?;
+    /// let mut session = Session::following(decoder).unwrap();
+    /// session.handle_sent(0, &[0x1a]);
+    /// assert_eq!(session.poll_output(), Some(Output::Transmit(vec![0x1a])));
+    /// session.handle_input(400, &[0x1a, 0x20, 0x29, 0xc0, 0x3b, 0x17, 0, 0, 0, 0xc8, 0x37]);
+    /// session.handle_sent(1_000, &[0x1a]);
+    /// assert!(matches!(session.poll_output(), Some(Output::Frame { sure: true, .. })));
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    pub fn handle_sent(&mut self, now: Micros, bytes: &[u8]) {
+        if let State::Waiting { sent, .. } = self.state {
+            self.judge(now, sent);
+        }
+        match Ask::of_bytes(&self.decoder, bytes) {
+            Some(ask) => self.put(now, ask),
+            None => {
+                self.output.push_back(Output::Transmit(bytes.into()));
+                self.state = State::Draining(now + QUIET);
+            }
+        }
+    }
+
+    /// Asks.
+    fn put(&mut self, now: Micros, ask: Ask) {
+        self.asked = ask;
+        let request = self.asked.bytes.clone();
+        let bits = 10 * (self.asked.reply + 2 * request.len()) as u64;
+        let on_wire = bits * 1_000_000 / u64::from(self.decoder.profile().baud);
+        self.output.push_back(Output::Transmit(request));
+        self.state = State::Waiting {
+            sent: now,
+            until: now + on_wire + self.timeout,
+        };
     }
 
     fn next_ask(&mut self) -> Option<Ask> {

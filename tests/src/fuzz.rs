@@ -7,12 +7,14 @@ mod capture;
 mod decode;
 mod detect;
 mod framing;
+mod recording;
 mod session;
 
 pub use capture::capture;
 pub use decode::decode;
 pub use detect::detect;
 pub use framing::framing;
+pub use recording::recording;
 pub use session::session;
 
 use encoderscope::{

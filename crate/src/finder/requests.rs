@@ -2,14 +2,11 @@
 
 use crate::{
     decode::Decoder,
-    format::{Format, rs485::Command, t485::Request},
+    format::{Format, bus::ADDRESSES, rs485::Command, t485::Request},
     profile::Profile,
     session::Ask,
 };
 use alloc::vec::Vec;
-
-/// Addresses on a BUS.
-const ADDRESSES: u8 = 32;
 
 /// The requests that a search sends for the format of a profile: none of them changes an encoder.
 ///

@@ -56,6 +56,9 @@ pub const SPEC: Spec = Spec {
     },
 };
 
+/// Addresses on a pair of wires (MPP "BUS").
+pub const ADDRESSES: u8 = 32;
+
 /// The longest that an encoder is silent while it stores, in microseconds (MPP "BUS", note 2).
 pub const STORING: u64 = 50_000;
 

@@ -132,6 +132,34 @@ impl Ask {
         }
     }
 
+    /// The request that these bytes are, where a session may ask it: for reading along what another
+    /// host asks.
+    ///
+    /// ```
+    /// use encoderscope::{decode::Decoder, profile::Profile, session::Ask};
+    /// let decoder = Decoder::new(Profile::parse([("format", "t485")])?)?;
+    /// assert_eq!(Ask::of_bytes(&decoder, &[0x1a]).map(|ask| ask.reply_len()), Some(11));
+    /// assert_eq!(Ask::of_bytes(&decoder, &[0xc2]), None);
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    #[must_use]
+    pub fn of_bytes(decoder: &Decoder, bytes: &[u8]) -> Option<Self> {
+        let is_it = |ask: &Self| ask.bytes == bytes;
+        match decoder.profile().format {
+            Format::Bus => (0..bus::ADDRESSES)
+                .filter_map(|address| Self::device(decoder, address).ok())
+                .find(is_it),
+            Format::T485 => {
+                let memory = bytes.get(1).copied().unwrap_or_default();
+                Request::ALL
+                    .iter()
+                    .filter_map(|request| Self::t485(decoder, *request, memory).ok())
+                    .find(is_it)
+            }
+            _ => Self::position(decoder).ok().filter(is_it),
+        }
+    }
+
     /// The bytes of the request.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {

@@ -63,3 +63,12 @@ fn conversations_hold_their_laws() {
         500,
     );
 }
+
+#[test]
+fn recordings_hold_their_laws() {
+    replay(
+        fuzz::recording,
+        include_str!("../../fuzz/corpus/recording.txt"),
+        2_000,
+    );
+}
