@@ -20,7 +20,7 @@
 mod read;
 mod write;
 
-pub use read::{Reader, Section, Unreadable};
+pub use read::{Reader, Section, Unreadable, is_whole};
 pub use write::Writer;
 
 use crate::session::Micros;

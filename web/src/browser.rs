@@ -38,6 +38,27 @@ extern "C" {
     pub fn terminate(this: &Peer);
 }
 
+/// The time 0 of [`now`], in microseconds since 1970.
+#[must_use]
+pub fn origin() -> Micros {
+    let performance = property(&js_sys::global(), "performance");
+    let origin = property(&performance, "timeOrigin").as_f64();
+    (origin.unwrap_or_default() * 1000.0) as Micros
+}
+
+/// The system that the browser runs on, by its name.
+#[must_use]
+pub fn system() -> String {
+    let navigator = property(&js_sys::global(), "navigator");
+    let platform = property(&property(&navigator, "userAgentData"), "platform");
+    let agent = property(&navigator, "userAgent").as_string();
+    let agent = agent.unwrap_or_default();
+    let known = ["Android", "Windows", "Mac OS", "CrOS", "Linux"];
+    let named = || known.into_iter().find(|name| agent.contains(name));
+    let platform = platform.as_string().filter(|name| !name.is_empty());
+    platform.unwrap_or_else(|| named().unwrap_or("unknown").to_owned())
+}
+
 /// Microseconds since the worker or page was made.
 #[must_use]
 pub fn now() -> Micros {

@@ -4,15 +4,18 @@
 mod ending;
 mod line;
 mod plot;
+mod recorder;
+mod replay;
 mod run;
 mod talk;
 mod wishes;
 
 use crate::{
-    browser::{Timer, now},
+    browser::{Timer, now, origin, system},
     link,
-    message::{FromEngine, Link, PortId, ToEngine},
+    message::{FromEngine, FromRecorder, Link, PortId, Snapshot, ToEngine},
     tally::Tally,
+    transcript::Transcript,
 };
 use encoderscope::{
     decode::Decoder,
@@ -22,12 +25,17 @@ use encoderscope::{
     session::{Micros, Session},
 };
 use ending::shut;
+use recorder::Recorder;
+use replay::Replayed;
 use run::{Run, Todo, Wire};
 use std::{cell::RefCell, rc::Rc};
 use talk::Talk;
+use wasm_bindgen::JsValue;
 
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
+/// The adapter of the built-in encoder.
+const BUILT_IN: &str = "built-in encoder";
 /// Figures and the log are renewed so often: nobody reads them faster.
 const SNAPSHOTS: Micros = 200_000;
 
@@ -39,24 +47,39 @@ pub struct Engine {
 
 struct State {
     post: Box<dyn Fn(FromEngine)>,
+    /// Says something of recordings, with a file beside it.
+    hand: Box<dyn Fn(FromRecorder, Option<JsValue>)>,
     timer: Option<Timer>,
     link: Link,
     /// Requests are so far apart.
     interval: Micros,
     run: Option<Run>,
+    /// The recording that is replayed instead.
+    player: Option<Replayed>,
+    /// What a support file shows until it is replayed.
+    saved: Option<Snapshot>,
+    recorder: Recorder,
     tally: Tally,
     /// The page has drawn and waits for what is new.
     wanted: bool,
     /// Before this time no snapshot is made of frames alone.
     rested: Micros,
     /// What the page has asked for and nobody has begun.
-    asked: Option<ToEngine>,
+    asked: Option<Order>,
     /// What has been asked is being done.
     busy: bool,
     /// The port that is being opened, and with which opening.
     opening: Option<(PortId, u32)>,
     /// Counts openings, so that what belongs to an earlier one can be told.
     generation: u32,
+}
+
+/// What is to be done with the link.
+enum Order {
+    /// What the page has asked for.
+    Link(ToEngine),
+    /// A recording is to be replayed in its place.
+    Replay(Box<Replayed>),
 }
 
 impl std::fmt::Debug for Engine {
@@ -66,16 +89,23 @@ impl std::fmt::Debug for Engine {
 }
 
 impl Engine {
-    /// An engine that answers through `post`.
-    pub fn new(post: impl Fn(FromEngine) + 'static) -> Self {
+    /// An engine that answers through `post`, and through `hand` what is about recordings.
+    pub fn new(
+        post: impl Fn(FromEngine) + 'static,
+        hand: impl Fn(FromRecorder, Option<JsValue>) + 'static,
+    ) -> Self {
         let engine = Self {
             state: Rc::new(RefCell::new(State {
                 post: Box::new(post),
+                hand: Box::new(hand),
                 timer: None,
                 link: Link::Closed,
                 interval: 0,
                 run: None,
-                tally: Tally::new(now()),
+                player: None,
+                saved: None,
+                recorder: Recorder::default(),
+                tally: Tally::new(now(), Transcript::new(origin(), &system())),
                 wanted: true,
                 rested: 0,
                 asked: None,
@@ -94,6 +124,7 @@ impl Engine {
             }
         });
         engine.state.borrow_mut().timer = Some(timer);
+        engine.look_for_remains();
         engine
     }
 
@@ -101,6 +132,12 @@ impl Engine {
     pub fn handle(&self, message: ToEngine) {
         let mut state = self.state.borrow_mut();
         match message {
+            // A recording hears nothing.
+            ToEngine::Scan
+            | ToEngine::Watch(_)
+            | ToEngine::Send { .. }
+            | ToEngine::ReadMemory(_)
+                if state.is_replaying() => {}
             ToEngine::Next => state.wanted = true,
             ToEngine::Set(setting) => state.begin(setting),
             ToEngine::StopSetting => state.stop(),
@@ -120,7 +157,7 @@ impl Engine {
             | ToEngine::Demo { .. }
             | ToEngine::Find { .. }
             | ToEngine::Close => {
-                state.asked = Some(message);
+                state.asked = Some(Order::Link(message));
                 drop(state);
                 return self.kick();
             }
@@ -134,9 +171,11 @@ impl Engine {
         let todo = self.state.borrow_mut().pump();
         match todo {
             None => {}
+            Some(Todo::Feed) => self.feed(),
             Some(Todo::Reopen(baud)) => self.search_at(baud),
             Some(Todo::Close) => {
-                self.state.borrow_mut().asked.get_or_insert(ToEngine::Close);
+                let close = Order::Link(ToEngine::Close);
+                self.state.borrow_mut().asked.get_or_insert(close);
                 self.kick();
             }
         }
@@ -155,18 +194,25 @@ impl Engine {
 
     async fn work(&self) {
         loop {
-            let Some(message) = self.state.borrow_mut().asked.take() else {
+            let Some(order) = self.state.borrow_mut().asked.take() else {
                 break;
             };
-            let wire = self.state.borrow_mut().let_go();
+            let wire = self.state.borrow_mut().let_go("closed");
             shut(wire).await;
+            let message = match order {
+                Order::Link(message) => message,
+                Order::Replay(player) => {
+                    self.begin_replay(*player);
+                    continue;
+                }
+            };
             match message {
                 ToEngine::Open { port, .. }
                 | ToEngine::Find {
                     port: Some(port), ..
                 } if self.is_opening(port) => {
                     // A port cannot be opened twice; when it is open or refused, this goes on.
-                    self.state.borrow_mut().asked = Some(message);
+                    self.state.borrow_mut().asked = Some(Order::Link(message));
                     self.set_link(Link::Opening);
                     break;
                 }
@@ -188,8 +234,9 @@ impl Engine {
     fn set_link(&self, link: Link) {
         {
             let mut state = self.state.borrow_mut();
+            let now = state.time();
             state.link = link;
-            state.tally.touch();
+            state.tell_link(now);
         }
         self.pump();
     }
@@ -209,7 +256,7 @@ impl Engine {
         let interval = self.state.borrow().interval.max(DEMO_INTERVAL);
         match Self::session(profile, interval) {
             Ok(session) => match emulator(session.decoder().profile()) {
-                Ok(wire) => self.start(session, wire, interval),
+                Ok(wire) => self.start(session, wire, interval, BUILT_IN),
                 Err(error) => self.set_link(Link::Unfit {
                     reason: error.to_string(),
                 }),
@@ -224,7 +271,7 @@ impl Engine {
         match made {
             Ok(wire) => {
                 let mut state = self.state.borrow_mut();
-                state.tally = Tally::after(&state.tally, now());
+                state.tally.renew(now(), BUILT_IN);
                 let talk = Talk::Find(Finder::new(), None);
                 state.run = Some(Run::searching(wire, talk, now()));
                 drop(state);
@@ -236,11 +283,11 @@ impl Engine {
         }
     }
 
-    fn start(&self, session: Session, wire: Wire, interval: Micros) {
+    fn start(&self, session: Session, wire: Wire, interval: Micros, adapter: &str) {
         {
             let mut state = self.state.borrow_mut();
-            state.tally = Tally::after(&state.tally, now());
-            state.tally.start(session.decoder().clone());
+            state.tally.renew(now(), adapter);
+            state.tally.start(now(), session.decoder().clone());
             state.run = Some(Run::reading(wire, session, interval, now()));
         }
         self.set_link(Link::Waiting);

@@ -13,4 +13,6 @@ pub mod link;
 pub mod message;
 pub mod plot;
 pub mod serial;
+pub mod store;
 pub mod tally;
+pub mod transcript;

@@ -4,11 +4,15 @@
 //! workers; either way these are the messages.
 
 mod desk;
+mod recorder;
 mod search;
 
 pub use desk::{
     CandidateView, Count, Explained, FieldView, FileKind, FromDesk, Marked, NearView, Overview,
     RowState, RowView, Selection, ToDesk, TraceView,
+};
+pub use recorder::{
+    Digest, FromRecorder, Kept, Place, RecorderState, Recording, Replay, Story, ToRecorder,
 };
 pub use search::{Found, Search, SearchStage, Trial};
 
@@ -169,6 +173,19 @@ impl Setting {
             Self::ResetErrors => Change::ResetErrors,
             Self::Address(address) => Change::Address(address),
             Self::Memory { address, data } => Change::Memory { address, data },
+        }
+    }
+
+    /// How it is called.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Zero => "set zero",
+            Self::ResetAngle => "reset angle",
+            Self::ResetTurns => "reset turns",
+            Self::ResetErrors => "reset errors",
+            Self::Address(_) => "set address",
+            Self::Memory { .. } => "EEPROM write",
         }
     }
 
@@ -440,6 +457,23 @@ pub struct Counts {
     pub silent: f64,
     /// Break, framing, parity and overrun errors of the port.
     pub line: f64,
+}
+
+impl std::ops::Add for Counts {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            good: self.good + other.good,
+            bad: self.bad + other.bad,
+            bytes: self.bytes + other.bytes,
+            framed: self.framed + other.framed,
+            skipped: self.skipped + other.skipped,
+            set: self.set + other.set,
+            silent: self.silent + other.silent,
+            line: self.line + other.line,
+        }
+    }
 }
 
 /// Entries of the log that a snapshot carries.

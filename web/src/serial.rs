@@ -4,7 +4,10 @@ use crate::{
     browser::{error_text, property, settled},
     message::PortId,
 };
-use encoderscope::adapter::{Chip, Made};
+use encoderscope::{
+    adapter::{Chip, Made},
+    recording::LineError,
+};
 use js_sys::{Array, Uint8Array};
 use std::{cell::RefCell, rc::Rc};
 use wasm_bindgen::{JsCast, JsValue, closure::Closure};
@@ -154,6 +157,16 @@ pub fn name(port: PortId) -> String {
     )
 }
 
+/// A name for a port that tells its kind to everyone: its chip and USB identity.
+#[must_use]
+pub fn kind(port: PortId) -> String {
+    let (Some(vendor), Some(product)) = (port.vendor, port.product) else {
+        return "serial port".into();
+    };
+    let chip = Chip::of(vendor, product).map_or("USB", |chip| chip.name);
+    format!("{chip} ({vendor:04x}:{product:04x})")
+}
+
 /// What a port makes of a baud rate.
 #[must_use]
 pub fn made(port: PortId, baud: u32) -> Made {
@@ -209,8 +222,8 @@ impl Drop for Watch {
 pub enum Read {
     /// Bytes.
     Bytes(Vec<u8>),
-    /// A break, framing, parity or overrun error; a new reader goes on.
-    LineError,
+    /// The UART complained; a new reader goes on.
+    LineError(LineError),
     /// The stream has ended: the port was closed.
     Closed,
     /// The port went away, or fails for good.
@@ -297,13 +310,16 @@ impl Port {
     }
 }
 
-/// Errors after which a port has a new stream (Web Serial, "readable").
-const LINE_ERRORS: [&str; 4] = [
-    "BreakError",
-    "BufferOverrunError",
-    "FramingError",
-    "ParityError",
-];
+/// The error after which a port has a new stream (Web Serial, "readable").
+fn line_error(error: &JsValue) -> Option<LineError> {
+    Some(match error_text(error).0.as_str() {
+        "BreakError" => LineError::Break,
+        "BufferOverrunError" => LineError::Overrun,
+        "FramingError" => LineError::Framing,
+        "ParityError" => LineError::Parity,
+        _ => return None,
+    })
+}
 
 /// Reads an open port.
 #[derive(Clone, Debug)]
@@ -320,8 +336,7 @@ impl Reader {
                 let bytes: Uint8Array = property(&result, "value").unchecked_into();
                 Read::Bytes(bytes.to_vec())
             }
-            Err(error) if LINE_ERRORS.contains(&error_text(&error).0.as_str()) => Read::LineError,
-            Err(_) => Read::Lost,
+            Err(error) => line_error(&error).map_or(Read::Lost, Read::LineError),
         }
     }
 

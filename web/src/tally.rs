@@ -6,25 +6,29 @@ mod memory;
 mod pace;
 mod settings;
 mod shaft;
+mod story;
 
 use crate::{
+    link::query,
     message::{Cell, Counts, Lamp, LogFilter, Progress, Search, Shown, Snapshot},
     plot::Trail,
+    transcript::Transcript,
 };
 use asides::Kept;
 pub(crate) use asides::RESTLESS;
-pub use asides::Who;
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
     history::Sample,
     reading::degrees,
+    recording::{Line, LineError},
     session::{Echo, Micros, Output},
 };
 use log::{Kind, Log, Seen};
 use pace::Pace;
 use shaft::{FEWEST, Place};
 use std::collections::VecDeque;
+use story::Story;
 
 /// Replies over which latencies are sorted.
 const LATENCIES: usize = 512;
@@ -68,6 +72,10 @@ pub struct Tally {
     memory: Option<Cell>,
     /// What the plot shows.
     trail: Trail,
+    transcript: Transcript,
+    story: Story,
+    /// What the line is read through.
+    adapter: String,
 }
 
 impl std::fmt::Debug for Tally {
@@ -81,7 +89,7 @@ impl std::fmt::Debug for Tally {
 impl Tally {
     /// Nothing yet.
     #[must_use]
-    pub fn new(now: Micros) -> Self {
+    pub fn new(now: Micros, transcript: Transcript) -> Self {
         Self {
             decoder: None,
             opened: now,
@@ -102,17 +110,47 @@ impl Tally {
             search: None,
             memory: None,
             trail: Trail::new(now),
+            transcript,
+            story: Story::default(),
+            adapter: String::new(),
         }
     }
 
-    /// Nothing yet of another link; how the last setting ended stays until it has been read, and
-    /// the log is shown as before.
+    /// Forgets one link for another, which is read through an adapter; how the last setting
+    /// ended stays until it has been read, the log is shown as before, and what happened is not forgotten.
+    pub fn renew(&mut self, now: Micros, adapter: &str) {
+        let next = Self::new(now, Transcript::default());
+        let before = std::mem::replace(self, next);
+        self.progress = before.progress;
+        self.log.filter = before.log.filter;
+        self.transcript = before.transcript;
+        self.story = before.story;
+        self.adapter = adapter.into();
+    }
+
+    /// Counts since the link was opened.
     #[must_use]
-    pub fn after(before: &Self, now: Micros) -> Self {
-        let mut tally = Self::new(now);
-        tally.progress = before.progress.clone();
-        tally.log.filter = before.log.filter;
-        tally
+    pub const fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// What was said on the line.
+    pub const fn transcript(&mut self) -> &mut Transcript {
+        &mut self.transcript
+    }
+
+    /// A line is open at a baud rate, and an encoder is searched for.
+    pub fn listen(&mut self, now: Micros, baud: u32) {
+        self.open(now, String::new(), baud);
+    }
+
+    fn open(&mut self, now: Micros, profile: String, baud: u32) {
+        let line = Line {
+            profile,
+            adapter: self.adapter.clone(),
+            baud,
+        };
+        self.transcript.open(now, line);
     }
 
     /// What is kept for the plot.
@@ -127,8 +165,10 @@ impl Tally {
     }
 
     /// A link is open, or goes on with another device.
-    pub fn start(&mut self, decoder: Decoder) {
-        self.trail.start(decoder.profile().angle_bits);
+    pub fn start(&mut self, now: Micros, decoder: Decoder) {
+        let profile = decoder.profile();
+        self.trail.start(profile.angle_bits);
+        self.open(now, query(profile), profile.baud);
         self.decoder = Some(decoder);
         self.last_good = None;
         self.seen_bits.clear();
@@ -162,14 +202,20 @@ impl Tally {
         shown(&frame)
     }
 
-    /// Bytes have come in.
-    pub fn received(&mut self, now: Micros, count: usize) {
-        self.counts.bytes += count as f64;
-        self.pace.bytes(now, count);
+    /// Bytes have come in, for reading or for something beside it.
+    pub fn received(&mut self, now: Micros, bytes: &[u8], beside: bool) {
+        self.transcript.received(now, bytes, beside);
+        self.counts.bytes += bytes.len() as f64;
+        self.pace.bytes(now, bytes.len());
+        if beside {
+            self.counts.set += bytes.len() as f64;
+            self.pass();
+        }
     }
 
     /// The port reported a break, framing, parity or overrun error.
-    pub fn line_error(&mut self) {
+    pub fn line_error(&mut self, now: Micros, error: LineError) {
+        self.transcript.failed(now, error);
         self.counts.line += 1.0;
         self.pass();
     }
@@ -183,6 +229,7 @@ impl Tally {
     pub fn take(&mut self, now: Micros, output: &Output) -> bool {
         match output {
             Output::Transmit(bytes) => {
+                self.transcript.sent(now, bytes, None);
                 self.pace.request();
                 self.remember(now, bytes, Kind::Asked, String::new());
             }

@@ -9,7 +9,8 @@ use alloc::{
 use core::fmt;
 use pcap_parser::{
     Block, EnhancedPacketBlock, InterfaceDescriptionBlock, OptionCode, PcapNGOption,
-    SectionHeaderBlock, parse_block_be, parse_block_le, traits::PcapNGPacketBlock,
+    SectionHeaderBlock, parse_block_be, parse_block_le, parse_enhancedpacketblock_le,
+    traits::PcapNGPacketBlock,
 };
 
 /// Type and length, as every block begins.
@@ -295,6 +296,31 @@ impl Reader {
             event: Event::Opened(interface.line),
         }))
     }
+}
+
+/// Whether a recording was ended, and not cut off, by the last kilobyte of its file.
+///
+/// ```
+/// use encoderscope::recording::{Writer, is_whole};
+/// let (mut writer, mut file) = (Writer::new("Encoderscope", "Linux"), Vec::new());
+/// writer.mark(0, "begins", &mut file);
+/// assert!(!is_whole(&file));
+/// writer.end(0, "stopped", &mut file);
+/// assert!(is_whole(&file));
+/// ```
+#[must_use]
+pub fn is_whole(tail: &[u8]) -> bool {
+    // A block ends with its length.
+    let last = tail.last_chunk().and_then(|length| {
+        let length = usize::try_from(u32::from_le_bytes(*length)).ok()?;
+        tail.get(tail.len().checked_sub(length)?..)
+    });
+    let packet = last.map(parse_enhancedpacketblock_le);
+    packet.is_some_and(|packet| {
+        packet.is_ok_and(|(_, packet)| {
+            packet.packet_data().get(EVENT) == Some(&event::CAPTURE_COMPLETE)
+        })
+    })
 }
 
 impl Interface {

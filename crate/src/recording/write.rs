@@ -36,7 +36,7 @@ const LONGEST: usize = 65_532;
 /// assert_eq!(moment.event, Event::Sent { bytes: vec![0x1a], purpose: None });
 /// # Ok::<(), encoderscope::recording::Unreadable>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Writer {
     application: String,
     system: String,
@@ -61,13 +61,7 @@ impl Writer {
         Self {
             application: application.into(),
             system: system.into(),
-            comment: String::new(),
-            line: None,
-            opened: 0,
-            last: 0,
-            written: 0,
-            interface: None,
-            interfaces: 0,
+            ..Self::default()
         }
     }
 

@@ -10,7 +10,6 @@ use crate::{
     browser::{now, pause},
     message::{Link, PortId},
     serial::{self, Port, Read, Reader},
-    tally::Tally,
 };
 use encoderscope::{
     adapter::Made,
@@ -43,7 +42,7 @@ impl Engine {
         self.set_link(Link::Opening);
         let baud = session.decoder().profile().baud;
         self.open(port, baud, None, move |engine, wire| {
-            engine.start(session, wire, interval);
+            engine.start(session, wire, interval, &serial::kind(port));
         });
     }
 
@@ -53,7 +52,7 @@ impl Engine {
         let mut finder = Finder::through(makes);
         {
             let mut state = self.state.borrow_mut();
-            state.tally = Tally::after(&state.tally, now());
+            state.tally.renew(now(), &serial::kind(port));
             state.tally.searched(&finder);
         }
         self.set_link(Link::Searching);
@@ -83,7 +82,11 @@ impl Engine {
         self.open(port, baud, before, move |engine, wire| {
             finder.handle_opened(now());
             let talk = Talk::Find(finder, Some(port));
-            engine.state.borrow_mut().run = Some(Run::searching(wire, talk, now()));
+            {
+                let mut state = engine.state.borrow_mut();
+                state.tally.listen(now(), baud);
+                state.run = Some(Run::searching(wire, talk, now()));
+            }
             engine.pump();
         });
     }
@@ -199,8 +202,8 @@ impl Engine {
                 }
                 Next::Read
             }
-            Read::LineError => {
-                state.tally.line_error();
+            Read::LineError(error) => {
+                state.tally.line_error(now(), error);
                 Next::Reader
             }
             // Nobody here has closed it: that would be another generation.
@@ -220,7 +223,7 @@ impl Engine {
             }
             state.busy = true;
             state.opening = None;
-            state.let_go()
+            state.let_go("lost")
         };
         self.set_link(Link::Lost);
         shut(wire).await;

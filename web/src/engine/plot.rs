@@ -1,19 +1,20 @@
 //! What the plot and the standstill panel ask for.
 
 use super::State;
-use crate::{browser::now, message::FromEngine, plot::PlotRequest};
+use crate::{message::FromEngine, plot::PlotRequest};
 
 impl State {
     /// Answers with what there is to plot.
     pub(super) fn plot(&self, request: &PlotRequest) {
         let trail = self.tally.trail();
-        let plot = trail.plot(self.run.is_some().then(now), request);
+        let plot = trail.plot(self.run.is_some().then(|| self.time()), request);
         (self.post)(FromEngine::Plot(Box::new(plot)));
     }
 
     /// Answers with how much the angle varies.
     pub(super) fn rest(&mut self) {
-        let rest = self.tally.trail_mut().rest(now());
+        let now = self.time();
+        let rest = self.tally.trail_mut().rest(now);
         (self.post)(FromEngine::Rest(rest.map(Box::new)));
     }
 }

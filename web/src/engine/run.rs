@@ -5,14 +5,16 @@ use crate::{
     link::query,
     message::{Link, Setting},
     serial::{Port, Reader},
-    tally::{RESTLESS, Tally, Who},
+    tally::{RESTLESS, Tally},
 };
 use encoderscope::{
+    bits::Bits,
     decode::Decoder,
     doctor::{Doctor, Finding},
     emulator::Emulator,
     finder::{self, Finder},
     profile::Profile,
+    recording::Purpose,
     sequence::{Change, Event, Holds, Runner},
     session::{Micros, Output, Session},
 };
@@ -40,8 +42,13 @@ pub(super) struct Run {
 }
 
 pub(super) enum Wire {
-    Port { port: Port, reader: Option<Reader> },
+    Port {
+        port: Port,
+        reader: Option<Reader>,
+    },
     Demo(Box<Emulator>),
+    /// A recording: nothing is sent.
+    Replay,
 }
 
 /// What a search wants of the engine.
@@ -49,6 +56,8 @@ pub(super) enum Wire {
 pub(super) enum Todo {
     /// The port at another baud rate.
     Reopen(u32),
+    /// More of the file that is replayed.
+    Feed,
     /// Nothing more.
     Close,
 }
@@ -58,6 +67,7 @@ impl Wire {
         match self {
             Self::Port { port, .. } => port.write(bytes),
             Self::Demo(emulator) => emulator.handle_input(at, bytes),
+            Self::Replay => {}
         }
     }
 }
@@ -104,7 +114,7 @@ impl Run {
             let mut idle = true;
             let host = self.host_deadline();
             let at = match &mut self.wire {
-                Wire::Port { .. } => now,
+                Wire::Port { .. } | Wire::Replay => now,
                 Wire::Demo(emulator) => {
                     let next = emulator.deadline().unwrap_or(Micros::MAX).min(host);
                     let at = next.max(oldest).max(self.lived).min(now);
@@ -166,7 +176,7 @@ impl Run {
                 Some(Talk::Scan(_, after)) => {
                     if let After::Set(setting) = after {
                         let why = "Broken off, for the page slept. Nothing was sent that changes an encoder.";
-                        tally.refuse(*setting, why);
+                        tally.refuse(now, *setting, why);
                     }
                     self.talk = None;
                 }
@@ -192,17 +202,16 @@ impl Run {
     pub(super) fn deadline(&self) -> Micros {
         let host = self.host_deadline();
         match &self.wire {
-            Wire::Port { .. } => host,
+            Wire::Port { .. } | Wire::Replay => host,
             Wire::Demo(emulator) => emulator.deadline().unwrap_or(Micros::MAX).min(host),
         }
     }
 
     /// Bytes have come.
     pub(super) fn take(&mut self, at: Micros, bytes: &[u8], tally: &mut Tally) {
-        tally.received(at, bytes.len());
+        tally.received(at, bytes, self.talk.is_some());
         match (&mut self.talk, &mut self.session) {
             (Some(talk), _) => {
-                tally.received_beside(bytes.len());
                 if !matches!(talk, Talk::Hand(_)) {
                     tally.answered(at, bytes);
                 }
@@ -213,16 +222,54 @@ impl Run {
         }
     }
 
-    /// The link is going away: a sequence ends here, and every byte is accounted for.
-    pub(super) fn abandon(&mut self, tally: &mut Tally) {
+    /// Bytes have come that were recorded.
+    pub(super) fn read(&mut self, at: Micros, bytes: &[u8], tally: &mut Tally) {
+        self.take(at, bytes, tally);
+        self.follow_session(at, tally);
+    }
+
+    /// Another host has sent this.
+    pub(super) fn hear(&mut self, at: Micros, bytes: &[u8], tally: &mut Tally) {
+        if let Some(session) = &mut self.session {
+            session.handle_sent(at, bytes);
+            let layout = session.decoder().layout(bytes);
+            let values = layout.map(|layout| layout.values(Bits::of_bytes(bytes)));
+            if let Some(address) = values.and_then(|values| values.address) {
+                tally.meet(address);
+            }
+            self.follow_session(at, tally);
+        }
+    }
+
+    /// Lets time pass for a session that reads along; returns how the link is when that has
+    /// changed.
+    pub(super) fn pass(&mut self, from: Micros, to: Micros, tally: &mut Tally) -> Option<Link> {
+        while let Some(session) = &mut self.session {
+            let due = session.deadline().max(from);
+            if due > to {
+                break;
+            }
+            session.handle_timeout(due);
+            self.follow_session(due, tally);
+        }
+        self.news()
+    }
+
+    /// Lets the session rest; everything that has come is reported.
+    pub(super) fn rest(&mut self, at: Micros, tally: &mut Tally) {
         if let Some(session) = &mut self.session {
             session.rest();
         }
-        self.follow_session(self.looked, tally);
+        self.follow_session(at, tally);
+    }
+
+    /// The link is going away: a sequence ends here, and every byte is accounted for.
+    pub(super) fn abandon(&mut self, tally: &mut Tally) {
+        self.rest(self.looked, tally);
         if let Some(Talk::Set(_, runner)) = &mut self.talk {
             runner.stop();
             while let Some(event) = runner.poll_output() {
-                tally.follow(&event);
+                tally.follow(self.looked, &event);
             }
         }
     }
@@ -253,9 +300,9 @@ impl Run {
                 let Some(event) = runner.poll_output() else {
                     return false;
                 };
-                tally.follow(&event);
+                tally.follow(at, &event);
                 match event {
-                    Event::Transmit(bytes) => self.send(at, &bytes, Who::Setting, tally),
+                    Event::Transmit(bytes) => self.send(at, &bytes, Purpose::Setting, tally),
                     Event::Progress { .. } => {}
                     Event::Ended { holds, .. } => {
                         self.talk = None;
@@ -266,7 +313,7 @@ impl Run {
             }
             Some(Talk::Hand(hand)) => {
                 if let Some(bytes) = hand.poll_output() {
-                    self.send(at, &bytes, Who::Hand, tally);
+                    self.send(at, &bytes, Purpose::Hand, tally);
                 } else if let Some(reply) = hand.reply() {
                     tally.answered(at, reply);
                     self.talk = None;
@@ -279,7 +326,7 @@ impl Run {
                 match finder.poll_output() {
                     None => return false,
                     Some(finder::Output::Transmit(bytes)) => {
-                        self.send(at, &bytes, Who::Scan, tally);
+                        self.send(at, &bytes, Purpose::Scan, tally);
                     }
                     // A scan stays at the baud rate of its profile.
                     Some(finder::Output::Open(_)) => finder.handle_opened(at),
@@ -298,13 +345,14 @@ impl Run {
                 tally.searched(finder);
                 match (output, &mut self.wire) {
                     (finder::Output::Transmit(bytes), _) => {
-                        self.send(at, &bytes, Who::Scan, tally);
+                        self.send(at, &bytes, Purpose::Scan, tally);
                     }
                     (finder::Output::Open(baud), Wire::Demo(emulator)) => {
                         emulator.faults.rate = Some(baud);
                         emulator.drop_unread(at);
                         finder.handle_opened(at);
                     }
+                    (finder::Output::Open(_), Wire::Replay) => {}
                     (finder::Output::Open(baud), Wire::Port { .. }) => {
                         self.todo = Some(Todo::Reopen(baud));
                     }
@@ -318,8 +366,8 @@ impl Run {
         }
     }
 
-    fn send(&mut self, at: Micros, bytes: &[u8], who: Who, tally: &mut Tally) {
-        tally.sent(at, bytes, who);
+    fn send(&mut self, at: Micros, bytes: &[u8], purpose: Purpose, tally: &mut Tally) {
+        tally.sent(at, bytes, purpose);
         self.wire.send(at, bytes);
     }
 
@@ -341,7 +389,7 @@ impl Run {
                 if alone && finder.disturbed().is_empty() && !finder.is_restless() {
                     self.set(setting, at, tally);
                 } else {
-                    tally.refuse(setting, &not_alone(addresses, finder));
+                    tally.refuse(at, setting, &not_alone(addresses, finder));
                 }
             }
         }
@@ -355,10 +403,11 @@ impl Run {
         match Runner::new(session.decoder(), setting.change(), now) {
             Some(runner) => {
                 session.rest();
-                tally.begin(setting, runner.total());
+                tally.begin(now, setting, runner.total());
                 self.talk = Some(Talk::Set(setting, Box::new(runner)));
             }
             None => tally.refuse(
+                now,
                 setting,
                 "This encoder has no such sequence. Nothing was sent.",
             ),
@@ -390,7 +439,7 @@ impl Run {
             decoder.and_then(|decoder| Session::of_devices(decoder, addresses, self.interval).ok());
         if let Some(new) = made {
             self.doctor = Doctor::new(*new.decoder().profile(), now);
-            tally.start(new.decoder().clone());
+            tally.start(now, new.decoder().clone());
             *session = new;
         }
     }

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     browser::now,
-    message::{FromEngine, Knobs, STILL, Setting, Snapshot, Supply},
+    message::{FromEngine, Knobs, Link, STILL, Setting, Snapshot, Supply},
     tally::News,
 };
 use encoderscope::{
@@ -19,34 +19,57 @@ use encoderscope::{
 };
 
 impl State {
-    /// Lets go of what is open; it is still to be closed.
-    pub(super) fn let_go(&mut self) -> Option<Wire> {
+    /// Lets go of what is open, and says why; it is still to be closed.
+    pub(super) fn let_go(&mut self, why: &str) -> Option<Wire> {
         self.generation += 1;
         self.tally.interrupted();
-        let mut run = self.run.take()?;
+        let run = self.run.take();
+        if self.player.take().is_some() {
+            self.saved = None;
+            self.tally.transcript().replays = false;
+            return None;
+        }
+        let mut run = run?;
         run.abandon(&mut self.tally);
+        self.tally.transcript().close(now(), why);
         Some(run.wire)
+    }
+
+    /// The link is another one, or in another state.
+    pub(super) fn tell_link(&mut self, now: Micros) {
+        let text = match &self.link {
+            Link::Refused { reason } | Link::Unfit { reason } => {
+                format!("link {}: {reason}", self.link.name())
+            }
+            link => format!("link {}", link.name()),
+        };
+        self.tally.happened(now, text);
+        self.tally.touch();
     }
 
     /// Begins a sequence with the encoder that is being read.
     pub(super) fn begin(&mut self, setting: Setting) {
+        if self.is_replaying() {
+            let why = "This is a recording. Nothing was sent.";
+            return self.tally.refuse(self.time(), setting, why);
+        }
         let still = self.tally.moved(now()).is_some_and(|moved| moved < STILL);
         let Some(run) = &mut self.run else {
-            return self.tally.refuse(setting, "Nothing is connected.");
+            return self.tally.refuse(now(), setting, "Nothing is connected.");
         };
         let Some(session) = run.session.as_mut().filter(|_| run.talk.is_none()) else {
             return;
         };
         if setting.needs_rest() && !still {
             let why = "The shaft must stand still for a second. Nothing was sent.";
-            return self.tally.refuse(setting, why);
+            return self.tally.refuse(now(), setting, why);
         }
         let scan = Finder::scan(session.decoder().profile(), now());
         match (setting, scan) {
             // Every device on the wire would take the new address.
             (Setting::Address(_), Some(finder)) => {
                 session.rest();
-                self.tally.begin(setting, 0);
+                self.tally.begin(now(), setting, 0);
                 run.talk = Some(Talk::Scan(finder, After::Set(setting)));
             }
             _ => run.set(setting, now(), &mut self.tally),
@@ -62,7 +85,7 @@ impl State {
             Some(Talk::Set(_, runner)) => runner.stop(),
             Some(Talk::Scan(_, After::Set(setting))) => {
                 let why = "Stopped: it was broken off. Nothing was sent that changes an encoder.";
-                self.tally.refuse(*setting, why);
+                self.tally.refuse(now(), *setting, why);
                 run.talk = None;
             }
             Some(Talk::Scan(_, After::Read)) => run.talk = None,
@@ -116,7 +139,7 @@ impl State {
         };
         if let Some(run) = &mut self.run {
             run.interval = match run.wire {
-                Wire::Port { .. } => self.interval,
+                Wire::Port { .. } | Wire::Replay => self.interval,
                 Wire::Demo(_) => self.interval.max(DEMO_INTERVAL),
             };
             if let Some(session) = &mut run.session {
@@ -188,19 +211,27 @@ impl State {
     pub(super) fn pump(&mut self) -> Option<Todo> {
         let now = now();
         let mut todo = None;
-        if let Some(run) = &mut self.run {
+        if self.is_replaying() {
+            todo = self.play(now).then_some(Todo::Feed);
+        } else if let Some(run) = &mut self.run {
             run.wake(now, &mut self.tally);
-            if let Some(link) = run.advance(now, &mut self.tally) {
-                self.link = link;
-                self.tally.touch();
-            }
+            let news = run.advance(now, &mut self.tally);
             todo = run.todo.take();
             if let Some(timer) = &mut self.timer {
                 timer.wake_by(run.deadline());
             }
+            if let Some(link) = news {
+                self.link = link;
+                self.tell_link(now);
+            }
         }
+        let time = self.time();
+        self.tally.review(time);
         if self.wanted {
             self.tell(now);
+        }
+        if let (Some(due), Some(timer)) = (self.keep(now), &mut self.timer) {
+            timer.wake_by(due);
         }
         todo
     }
@@ -221,14 +252,18 @@ impl State {
             News::Frames | News::More => {
                 self.wanted = false;
                 self.rested = now + SNAPSHOTS;
-                let snapshot = self.snapshot(now);
+                let snapshot = self.snapshot();
                 (self.post)(FromEngine::Snapshot(Box::new(snapshot)));
             }
         }
     }
 
-    fn snapshot(&mut self, now: Micros) -> Snapshot {
-        let mut snapshot = self.tally.snapshot(now);
+    fn snapshot(&mut self) -> Snapshot {
+        let time = self.time();
+        let mut snapshot = self.tally.snapshot(time);
+        if let Some(saved) = &self.saved {
+            return saved.clone();
+        }
         snapshot.link = self.link.clone();
         match &self.run {
             Some(run) => snapshot.busy = run.talk.is_some(),

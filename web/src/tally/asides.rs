@@ -9,32 +9,12 @@ use encoderscope::{
     decode::{Decoder, Frame},
     finder::Finder,
     format::Format,
+    recording::Purpose,
     session::Micros,
 };
 
 /// Why nothing can be asked.
 pub(crate) const RESTLESS: &str = "Something talks on the line all the time.";
-
-/// Who sends what reading does not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Who {
-    /// A guided setting.
-    Setting,
-    /// A scan or a search.
-    Scan,
-    /// The user.
-    Hand,
-}
-
-impl Who {
-    const fn text(self) -> &'static str {
-        match self {
-            Self::Setting => "setting",
-            Self::Scan => "scan",
-            Self::Hand => "by hand",
-        }
-    }
-}
 
 /// What is kept of a device of a BUS.
 pub(super) struct Kept {
@@ -48,6 +28,17 @@ pub(super) struct Kept {
 }
 
 impl Kept {
+    const fn new(address: u8) -> Self {
+        Self {
+            address,
+            reading: None,
+            good: 0.0,
+            bad: 0.0,
+            at: None,
+            apart: 0,
+        }
+    }
+
     pub(super) fn shown(&self, now: Micros) -> Device {
         Device {
             address: self.address,
@@ -62,12 +53,6 @@ impl Kept {
 }
 
 impl Tally {
-    /// Bytes have come in that are not for the session.
-    pub fn received_beside(&mut self, count: usize) {
-        self.counts.set += count as f64;
-        self.pass();
-    }
-
     /// A reply, or a part of one, that is not for the session.
     pub fn answered(&mut self, now: Micros, bytes: &[u8]) {
         if !bytes.is_empty() {
@@ -76,24 +61,15 @@ impl Tally {
     }
 
     /// Bytes are sent that the session did not ask for.
-    pub fn sent(&mut self, now: Micros, bytes: &[u8], who: Who) {
+    pub fn sent(&mut self, now: Micros, bytes: &[u8], purpose: Purpose) {
+        self.transcript.sent(now, bytes, Some(purpose));
         self.pace.request();
-        self.remember(now, bytes, Kind::Sent, who.text().into());
+        self.remember(now, bytes, Kind::Sent, purpose.text().into());
     }
 
     /// A scan is over.
     pub fn scanned(&mut self, addresses: &[u8], finder: &Finder) {
-        self.devices = addresses
-            .iter()
-            .map(|address| Kept {
-                address: *address,
-                reading: None,
-                good: 0.0,
-                bad: 0.0,
-                at: None,
-                apart: 0,
-            })
-            .collect();
+        self.devices = addresses.iter().copied().map(Kept::new).collect();
         let found = match addresses.len() {
             0 => "No device answers.".to_owned(),
             1 => "One device answers.".to_owned(),
@@ -110,6 +86,23 @@ impl Tally {
             ),
         });
         self.touch();
+    }
+
+    /// A device of a BUS is asked, perhaps beside the one on the dial.
+    pub fn meet(&mut self, address: u8) {
+        let Some(watched) = self.watched() else {
+            return;
+        };
+        if self.devices.is_empty() && u32::from(address) == watched {
+            return;
+        }
+        let known = |address: u8| move |kept: &Kept| kept.address == address;
+        let own = u8::try_from(watched).ok();
+        for address in [own, Some(address)].into_iter().flatten() {
+            if !self.devices.iter().any(known(address)) {
+                self.devices.push(Kept::new(address));
+            }
+        }
     }
 
     /// One device alone is read again.

@@ -2,11 +2,19 @@
 
 use super::{Tally, frame_of, shown};
 use crate::message::{Outcome, Progress, Setting};
-use encoderscope::sequence::{Event, Holds};
+use encoderscope::{
+    sequence::{Event, Holds},
+    session::Micros,
+};
 
 impl Tally {
     /// A sequence begins.
-    pub fn begin(&mut self, setting: Setting, total: usize) {
+    pub fn begin(&mut self, now: Micros, setting: Setting, total: usize) {
+        self.note(now, &format!("{}: begins", setting.name()));
+        self.prepare(setting, total);
+    }
+
+    fn prepare(&mut self, setting: Setting, total: usize) {
         let before = self
             .decoder
             .as_ref()
@@ -25,13 +33,13 @@ impl Tally {
     }
 
     /// A sequence could not begin.
-    pub fn refuse(&mut self, setting: Setting, why: &str) {
-        self.begin(setting, 0);
-        self.end(Some(false), why.into());
+    pub fn refuse(&mut self, now: Micros, setting: Setting, why: &str) {
+        self.prepare(setting, 0);
+        self.end(now, Some(false), why.into());
     }
 
     /// What a sequence says.
-    pub fn follow(&mut self, event: &Event) {
+    pub fn follow(&mut self, now: Micros, event: &Event) {
         self.touch();
         match event {
             Event::Transmit(_) => {}
@@ -52,12 +60,15 @@ impl Tally {
                     Some(stop) => format!("Stopped: {stop}; {holds}."),
                     None => format!("Done: {holds}."),
                 };
-                self.end(changed, text);
+                self.end(now, changed, text);
             }
         }
     }
 
-    fn end(&mut self, changed: Option<bool>, text: String) {
+    fn end(&mut self, now: Micros, changed: Option<bool>, text: String) {
+        if let Some(progress) = &self.progress {
+            self.note(now, &format!("{}: {text}", progress.setting.name()));
+        }
         // What was read before says nothing about the shaft any more.
         self.places.clear();
         self.trail.jump();

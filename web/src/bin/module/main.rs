@@ -17,7 +17,7 @@ use encoderscope_web::{
     browser::{Peer, property},
     desk::Desk,
     engine::Engine,
-    message::{FromDesk, FromEngine, ToDesk, ToEngine},
+    message::{FromDesk, FromEngine, FromRecorder, ToDesk, ToEngine, ToRecorder},
     serial,
 };
 use js_sys::{Array, Object, Uint8Array};
@@ -231,9 +231,23 @@ pub fn serve(page: &Peer) {
     post(FromEngine::Hello {
         serial: serial::available().is_ok(),
     });
-    let engine = Engine::new(post);
+    let out = page.clone();
+    // What is about recordings is an array, with a file beside it.
+    let hand = move |message: FromRecorder, file: Option<JsValue>| {
+        if let Ok(message) = serde_wasm_bindgen::to_value(&message) {
+            let both = Array::of2(&message, &file.unwrap_or_default());
+            // The page is gone when this fails.
+            let _ = out.post(&both);
+        }
+    };
+    let engine = Engine::new(post, hand);
     let listen = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
-        if let Ok(message) = serde_wasm_bindgen::from_value::<ToEngine>(event.data()) {
+        if let Some(both) = event.data().dyn_ref::<Array>() {
+            let file = Some(both.get(1)).filter(JsValue::is_object);
+            if let Ok(message) = serde_wasm_bindgen::from_value::<ToRecorder>(both.get(0)) {
+                engine.record(message, file);
+            }
+        } else if let Ok(message) = serde_wasm_bindgen::from_value::<ToEngine>(event.data()) {
             engine.handle(message);
         }
     });

@@ -15,8 +15,10 @@ use encoderscope_web::{
     message::{PortId, Snapshot, ToEngine},
     serial,
 };
+use js_sys::Array;
 use leptos::{ev, prelude::*};
 use std::time::Duration;
+use wasm_bindgen::JsValue;
 
 /// What the dial shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +29,8 @@ pub(crate) enum Source {
     Demo,
     /// A port.
     Port,
+    /// A recording.
+    Replay,
 }
 
 /// The areas of the page.
@@ -104,6 +108,8 @@ pub(crate) struct App {
     broken: RwSignal<bool>,
     /// A port was plugged in a moment ago.
     pub(crate) just_plugged: RwSignal<bool>,
+    /// A recording runs.
+    pub(crate) records: RwSignal<bool>,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
@@ -134,6 +140,7 @@ impl App {
             owner: StoredValue::new(Owner::current().unwrap_or_default()),
             broken,
             just_plugged: RwSignal::new(false),
+            records: RwSignal::new(false),
             connection: StoredValue::new_local(connection),
         }
     }
@@ -156,9 +163,21 @@ impl App {
     }
 
     /// Speaks to the engine.
-    pub(crate) fn send(&self, message: ToEngine) {
+    pub(crate) fn send(&self, message: &ToEngine) {
         self.connection
             .with_value(|connection| connection.send(message));
+    }
+
+    /// Sends the engine what most of the page knows nothing of.
+    pub(crate) fn post(&self, message: JsValue) {
+        self.connection
+            .with_value(|connection| connection.post(message));
+    }
+
+    /// Hears what the engine says of recordings.
+    pub(crate) fn hear(&self, heard: impl Fn(Array) + 'static) {
+        self.connection
+            .with_value(|connection| connection.hear(heard));
     }
 
     /// Starts the built-in encoder with the present profile.
@@ -167,7 +186,7 @@ impl App {
         self.obstacle.set(None);
         let profile = self.readable();
         self.running.set(Some(profile));
-        self.send(ToEngine::Demo {
+        self.send(&ToEngine::Demo {
             profile: query(&profile),
         });
     }
@@ -191,12 +210,12 @@ impl App {
     /// Asks so many times a second.
     pub(crate) fn set_pace(self, rate: f64) {
         self.pace.set(rate);
-        self.send(ToEngine::Pace(rate));
+        self.send(&ToEngine::Pace(rate));
     }
 
     /// Stops reading.
     pub(crate) fn disconnect(&self) {
-        self.send(ToEngine::Close);
+        self.send(&ToEngine::Close);
     }
 
     /// Takes over a new profile.
@@ -235,7 +254,7 @@ impl App {
             {
                 self.connect();
             }
-            Source::Port => {}
+            Source::Port | Source::Replay => {}
             Source::Demo | Source::Preview if running == Some(self.readable()) => {}
             source => self.demo(source),
         }
@@ -323,7 +342,9 @@ impl App {
         Effect::new(move || {
             if app.broken.get() {
                 match app.source.get_untracked() {
-                    Source::Port => app.obstacle.set(Some(Obstacle::BrokeDown)),
+                    Source::Port | Source::Replay => {
+                        app.obstacle.set(Some(Obstacle::BrokeDown));
+                    }
                     source => app.demo(source),
                 }
             }
@@ -361,8 +382,7 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
     Effect::new(move || {
         if let (Some(fragment), Ok(history)) = (app.fragment(), window().history()) {
             // Where it fails the link in the address bar is only out of date.
-            let _ =
-                history.replace_state_with_url(&wasm_bindgen::JsValue::NULL, "", Some(&fragment));
+            let _ = history.replace_state_with_url(&JsValue::NULL, "", Some(&fragment));
         }
     });
     // Nothing of this is needed for the first picture.

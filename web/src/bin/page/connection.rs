@@ -7,9 +7,10 @@ use encoderscope_web::{
     message::{FromEngine, Shown, Snapshot, ToEngine},
     serial,
 };
+use js_sys::Array;
 use leptos::prelude::*;
 use std::{cell::RefCell, rc::Rc};
-use wasm_bindgen::{JsCast, prelude::Closure};
+use wasm_bindgen::{JsCast, JsValue, prelude::Closure};
 use web_sys::MessageEvent;
 
 /// Sends messages to the engine; clones share one engine.
@@ -19,6 +20,15 @@ pub(crate) struct Connection {
     workers: StoredValue<Workers, LocalStorage>,
     snapshot: RwSignal<Snapshot>,
     feed: Feed,
+    parcels: Rc<RefCell<Parcels>>,
+}
+
+/// What the engine says of recordings: most of the page knows nothing of them.
+#[derive(Default)]
+struct Parcels {
+    heard: Option<Box<dyn Fn(Array)>>,
+    /// What was said before anybody listened.
+    waiting: Vec<Array>,
 }
 
 struct Inner {
@@ -27,7 +37,7 @@ struct Inner {
     /// Where the engine runs.
     seat: Seat,
     /// What was said before the engine ran; nothing from then on.
-    waiting: Option<Vec<ToEngine>>,
+    waiting: Option<Vec<JsValue>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +65,7 @@ impl Connection {
             workers,
             snapshot,
             feed,
+            parcels: Rc::default(),
         };
         let starting = connection.clone();
         after_picture(move || starting.start(broken));
@@ -79,8 +90,11 @@ impl Connection {
     fn listen(&self, engine: &Peer) {
         let connection = self.clone();
         let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
-            if let Ok(message) = serde_wasm_bindgen::from_value::<FromEngine>(event.data()) {
+            let data = event.data();
+            if let Ok(message) = serde_wasm_bindgen::from_value::<FromEngine>(data.clone()) {
                 connection.receive(message);
+            } else if let Ok(parcel) = data.dyn_into() {
+                connection.take(parcel);
             }
         });
         engine.set_heard(Some(on_message.as_ref().unchecked_ref()));
@@ -120,7 +134,7 @@ impl Connection {
     /// More is wanted when this has been drawn.
     fn want_next(&self) {
         let connection = self.clone();
-        request_animation_frame(move || connection.send(ToEngine::Next));
+        request_animation_frame(move || connection.send(&ToEngine::Next));
     }
 
     fn run_here(&self) {
@@ -147,20 +161,45 @@ impl Connection {
     fn ready(&self) {
         let waiting = self.inner.borrow_mut().waiting.take();
         for message in waiting.unwrap_or_default() {
-            self.send(message);
+            self.post(message);
         }
     }
 
     /// Sends a message; before the engine runs, it is kept.
-    pub(crate) fn send(&self, message: ToEngine) {
+    pub(crate) fn send(&self, message: &ToEngine) {
+        if let Ok(message) = serde_wasm_bindgen::to_value(message) {
+            self.post(message);
+        }
+    }
+
+    pub(crate) fn post(&self, message: JsValue) {
         let mut inner = self.inner.borrow_mut();
         if let Some(waiting) = &mut inner.waiting {
             waiting.push(message);
-        } else if let Some(engine) = &inner.engine
-            && let Ok(message) = serde_wasm_bindgen::to_value(&message)
-        {
+        } else if let Some(engine) = &inner.engine {
             // A worker that is gone has reported its error already.
             let _ = engine.post(&message);
         }
+    }
+
+    fn take(&self, parcel: Array) {
+        let mut parcels = self.parcels.borrow_mut();
+        if parcels.heard.is_none() {
+            parcels.waiting.push(parcel);
+            return self.feed.parcels.set(true);
+        }
+        drop(parcels);
+        if let Some(heard) = &self.parcels.borrow().heard {
+            heard(parcel);
+        }
+    }
+
+    /// Hears what the engine says of recordings, and has said of them.
+    pub(crate) fn hear(&self, heard: impl Fn(Array) + 'static) {
+        let waiting = std::mem::take(&mut self.parcels.borrow_mut().waiting);
+        for parcel in waiting {
+            heard(parcel);
+        }
+        self.parcels.borrow_mut().heard = Some(Box::new(heard));
     }
 }

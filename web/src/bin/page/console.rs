@@ -10,6 +10,7 @@ use crate::{
     parts::{self, coming, later},
     plot::PlotPanel,
     ports::Obstacle,
+    recordings::RecordingsPanel,
     setting::SettingPanel,
     standstill::Standstill,
     zero_wire::ZeroWire,
@@ -23,6 +24,7 @@ pub(crate) fn Console() -> impl IntoView {
     let preview = Memo::new(move |_| app.source.get() == Source::Preview);
     view! {
         <div class="console">
+            {move || app.feed.parcels.get().then(|| later(parts::remains, || ()))}
             {move || match preview.get() {
                 true => view! { <Preview /> }.into_any(),
                 false => later(parts::live, Preview).into_any(),
@@ -48,6 +50,9 @@ fn Preview() -> impl IntoView {
 /// What is shown of an encoder that is read.
 #[component]
 pub(crate) fn Live() -> impl IntoView {
+    let app = expect_context::<App>();
+    // A recording cannot be changed.
+    let lives = Memo::new(move |_| app.source.get() != Source::Replay);
     view! {
         <LinkPanel />
         <div class="stage">
@@ -55,12 +60,12 @@ pub(crate) fn Live() -> impl IntoView {
             <Angle />
             <div class="side">
                 <Status />
-                <SettingPanel />
-                <ZeroWire />
+                {move || lives.get().then(|| view! { <SettingPanel /> <ZeroWire /> })}
             </div>
             <DevicesPanel />
             <div class="plots"><PlotPanel /><Standstill /></div>
             <Frames />
+            <RecordingsPanel />
         </div>
     }
 }

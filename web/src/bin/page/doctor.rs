@@ -147,6 +147,19 @@ fn ladder(app: App) -> Vec<Rung> {
         .collect()
 }
 
+/// The ladder, and what the page says of the link, a line each.
+pub(crate) fn findings(app: App) -> Vec<String> {
+    let link = app.snapshot.with(|snapshot| snapshot.link.clone());
+    let said = match obstacle(app) {
+        Some(obstacle) => ("No port", obstacle.text()),
+        None => link_text(&link, app),
+    };
+    let said = format!("{}. {}", said.0, said.1);
+    let rungs = ladder(app).into_iter();
+    let rungs = rungs.map(|rung| format!("{} {}: {}", rung.tone.sign(), rung.title, rung.evidence));
+    [said].into_iter().chain(rungs).collect()
+}
+
 /// What stands in the way of the port that the user wants.
 fn obstacle(app: App) -> Option<Obstacle> {
     let wanted = app.source.get() == Source::Port || app.obstacle.get().is_some();

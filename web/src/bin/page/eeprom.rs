@@ -46,7 +46,7 @@ pub(crate) fn Eeprom(chosen: RwSignal<Option<Setting>>) -> impl IntoView {
     };
     let read = move |_| {
         if let Some(address) = address.get_untracked() {
-            app.send(ToEngine::ReadMemory(address));
+            app.send(&ToEngine::ReadMemory(address));
         }
     };
     let answer = move || match (asked(), held()) {

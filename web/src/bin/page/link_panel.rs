@@ -8,6 +8,7 @@ use crate::{
     doctor::LinkState,
     finder::FindButton,
     profile_editor::{Offer, ProfileEditor},
+    recordings::{RecordButton, ReplayBar},
 };
 use encoderscope::{explain::grouped, format::Link as Way};
 use encoderscope_web::{
@@ -20,33 +21,37 @@ use leptos::prelude::*;
 pub(crate) fn LinkPanel() -> impl IntoView {
     let app = expect_context::<App>();
     let open = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.link.is_open()));
-    let polled = move || app.profile.get().link() == Way::Polled;
+    let lives = move || app.source.get() != Source::Replay;
+    let polled = move || lives() && app.profile.get().link() == Way::Polled;
     let title = move || match app.source.get() {
         Source::Port => {
             app.ports.track();
             app.port.get().map_or("Serial port".into(), adapters::name)
         }
         Source::Demo | Source::Preview => "Demo encoder".into(),
+        Source::Replay => "Recording".into(),
     };
     view! {
         <section class="panel link">
             <h2>"Link"</h2>
             <p class="name">{title}</p>
             <LinkState />
+            <ReplayBar />
+            <RecordButton />
             <div class="doors">
                 {move || {
-                    if open.get() {
+                    if open.get() && app.source.get() != Source::Replay {
                         view! { <button data-testid="disconnect" on:click=move |_| app.disconnect()>"Disconnect"</button> }
                             .into_any()
                     } else {
                         view! { <ConnectButton /> }.into_any()
                     }
                 }}
-                {move || (app.source.get() == Source::Port || !open.get()).then(|| view! { <DemoButton /> })}
+                {move || (app.source.get() != Source::Demo || !open.get()).then(|| view! { <DemoButton /> })}
                 {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <ConnectButton /> })}
             </div>
             <PortChooser />
-            <div class="doors"><FindButton /></div>
+            {move || lives().then(|| view! { <div class="doors"><FindButton /></div> })}
             {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <DemoKnobs /> })}
             <details>
                 <summary>"Encoder settings"</summary>

@@ -27,6 +27,7 @@ pub(crate) fn Angle() -> impl IntoView {
     let stale = move || shown.get().is_some() && !app.snapshot.with(is_fresh);
     let heading = move || match app.source.get() {
         Source::Port => "Angle",
+        Source::Replay => "Recording · angle",
         Source::Demo | Source::Preview => "Demo · angle",
     };
     let counts = move || {

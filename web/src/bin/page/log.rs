@@ -41,7 +41,7 @@ impl LogView {
     fn show(self, app: App, wanted: LogFilter) {
         self.filter.set(wanted);
         self.held.set(None);
-        app.send(ToEngine::Log(wanted));
+        app.send(&ToEngine::Log(wanted));
     }
 }
 
@@ -49,7 +49,7 @@ impl LogView {
 pub(crate) fn Frames() -> impl IntoView {
     let app = expect_context::<App>();
     let view = LogView::new();
-    app.send(ToEngine::Log(LogFilter::All));
+    app.send(&ToEngine::Log(LogFilter::All));
     // What was chosen is explained by the profile that it came with.
     Effect::new(move || {
         app.profile.track();
@@ -68,6 +68,7 @@ pub(crate) fn Frames() -> impl IntoView {
     let close = Callback::new(move |()| view.go_on());
     let sent = Callback::new(move |()| view.show(app, LogFilter::Beside));
     let reads = move || app.source.get() != Source::Preview;
+    let sends = move || reads() && app.source.get() != Source::Replay;
     view! {
         <section class="panel frames">
             <h2>"Frames"</h2>
@@ -88,7 +89,7 @@ pub(crate) fn Frames() -> impl IntoView {
                 </table>
             </div>
             {move || view.chosen.get().map(|entry| later(move || parts::inspect(entry.clone(), close), || ()))}
-            {move || reads().then(|| later(move || parts::by_hand(sent), || ()))}
+            {move || sends().then(|| later(move || parts::by_hand(sent), || ()))}
         </section>
     }
 }

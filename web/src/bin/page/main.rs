@@ -27,6 +27,7 @@ mod parts;
 mod plot;
 mod ports;
 mod profile_editor;
+mod recordings;
 mod reference;
 mod setting;
 mod standstill;

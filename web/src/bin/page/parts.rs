@@ -5,12 +5,13 @@
 
 use crate::{
     adapters,
-    app::App,
+    app::{App, Area},
     console::Live,
     decode::Decode,
     explain::Explain,
     log::{ByHand, Controls, Inspect, LogView},
     profile_editor::{Offer, ProfileEditor},
+    recordings::{Recordings, Remains},
     reference::Reference,
 };
 use encoderscope_web::{
@@ -22,6 +23,7 @@ use leptos::{
     wasm_split::{SplitLoaderError, wasm_split},
 };
 use std::future::Future;
+use web_sys::Blob;
 
 /// The view of a part, or that its code cannot be had.
 type Part = Result<AnyView, SplitLoaderError>;
@@ -45,6 +47,20 @@ pub(crate) fn reference() -> Part {
 #[wasm_split(live, wasm_split_path = leptos::wasm_split, fallible)]
 pub(crate) fn live() -> Part {
     Ok(view! { <Live /> }.into_any())
+}
+
+/// Recordings that were cut off.
+#[wasm_split(live, wasm_split_path = leptos::wasm_split, fallible)]
+pub(crate) fn remains() -> Part {
+    Ok(view! { <Remains /> }.into_any())
+}
+
+/// Replays a recording of the user's.
+#[wasm_split(live, wasm_split_path = leptos::wasm_split, fallible)]
+pub(crate) fn replay(app: App, name: String, file: Blob) -> Result<(), SplitLoaderError> {
+    app.area.set(Area::Console);
+    Recordings::of(app).open(name, &file);
+    Ok(())
 }
 
 /// The settings behind the console's first view.

@@ -27,6 +27,8 @@ pub(crate) struct Feed {
     pub(crate) reading: RwSignal<Option<Shown>>,
     pub(crate) plot: RwSignal<Plot>,
     pub(crate) rest: RwSignal<Option<Rest>>,
+    /// The engine has said something of recordings.
+    pub(crate) parcels: RwSignal<bool>,
 }
 
 impl Feed {
@@ -35,6 +37,7 @@ impl Feed {
             reading: RwSignal::new(None),
             plot: RwSignal::new(Plot::default()),
             rest: RwSignal::new(None),
+            parcels: RwSignal::new(false),
         }
     }
 }
@@ -273,7 +276,7 @@ fn ask(view: View) {
     let request = Memo::new(move |_| view.request());
     let waited = StoredValue::new(0u32);
     let ticks = StoredValue::new(0u32);
-    Effect::new(move || app.send(ToEngine::Plot(request.get())));
+    Effect::new(move || app.send(&ToEngine::Plot(request.get())));
     Effect::new(move || {
         view.feed.plot.track();
         waited.set_value(0);
@@ -281,7 +284,7 @@ fn ask(view: View) {
     let tick = move || {
         ticks.update_value(|ticks| *ticks = ticks.wrapping_add(1));
         if ticks.get_value().is_multiple_of(ASK_REST) {
-            app.send(ToEngine::Rest);
+            app.send(&ToEngine::Rest);
         }
         if view.held.get_untracked().is_some() {
             return;
@@ -289,7 +292,7 @@ fn ask(view: View) {
         match waited.get_value() {
             0 => {
                 waited.set_value(PATIENCE);
-                app.send(ToEngine::Plot(request.get_untracked()));
+                app.send(&ToEngine::Plot(request.get_untracked()));
             }
             left => waited.set_value(left - 1),
         }

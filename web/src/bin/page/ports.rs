@@ -153,7 +153,7 @@ impl App {
         self.obstacle.set(None);
         if self.source.get_untracked() == Source::Demo {
             let profile = query(&self.readable());
-            return self.send(ToEngine::Find {
+            return self.send(&ToEngine::Find {
                 port: None,
                 profile,
             });
@@ -162,7 +162,7 @@ impl App {
             if let Some(port) = self.chosen_port().await {
                 self.port.set(Some(port));
                 self.source.set(Source::Port);
-                self.send(ToEngine::Find {
+                self.send(&ToEngine::Find {
                     port: Some(port),
                     profile: String::new(),
                 });
@@ -197,7 +197,7 @@ impl App {
         }
         adapters::remember(port, &profile);
         self.running.set(Some(profile));
-        self.send(ToEngine::Open {
+        self.send(&ToEngine::Open {
             port,
             profile: query(&profile),
         });

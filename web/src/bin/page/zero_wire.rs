@@ -313,7 +313,7 @@ fn DemoSupply() -> impl IntoView {
     ];
     let buttons = switches.map(|(supply, testid, text)| {
         view! {
-            <button class="quiet" data-testid=testid on:click=move |_| app.send(ToEngine::Supply(supply))>{text}</button>
+            <button class="quiet" data-testid=testid on:click=move |_| app.send(&ToEngine::Supply(supply))>{text}</button>
         }
     });
     view! { <div class="doors">{buttons.collect_view()}</div> }

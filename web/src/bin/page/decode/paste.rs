@@ -1,7 +1,7 @@
 //! Input: a box to paste into, files, and how the text was read.
 
 use super::plural;
-use crate::app::App;
+use crate::{app::App, parts};
 use encoderscope::format::Format;
 use encoderscope_web::message::Marked;
 use js_sys::Array;
@@ -65,8 +65,15 @@ pub(super) fn Paste() -> impl IntoView {
     };
     let open = move |files: Option<web_sys::FileList>| {
         let file = files.and_then(|files| files.get(0));
-        if let Some(file) = file {
-            desk.open(file.name(), file.into(), &profile());
+        match file {
+            Some(file) if file.name().ends_with(".pcapng") => {
+                leptos::task::spawn_local(async move {
+                    // Without the network there is nothing to replay it with.
+                    let _ = parts::replay(app, file.name(), file.into()).await;
+                });
+            }
+            Some(file) => desk.open(file.name(), file.into(), &profile()),
+            None => {}
         }
     };
     let dropped = move |event: DragEvent| {

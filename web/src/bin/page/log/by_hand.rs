@@ -60,7 +60,7 @@ pub(crate) fn ByHand(sent: Callback<()>) -> impl IntoView {
                 Some(danger) => question.set(Some((bytes, danger.to_string()))),
                 None => {
                     sent.run(());
-                    app.send(ToEngine::Send {
+                    app.send(&ToEngine::Send {
                         bytes,
                         confirmed: false,
                     });
@@ -71,7 +71,7 @@ pub(crate) fn ByHand(sent: Callback<()>) -> impl IntoView {
     let confirm = move |bytes: Vec<u8>| {
         question.set(None);
         sent.run(());
-        app.send(ToEngine::Send {
+        app.send(&ToEngine::Send {
             bytes,
             confirmed: true,
         });

@@ -1,0 +1,167 @@
+//! Recordings: making them, what is there, replaying and comparing them; and the support file.
+
+mod compare;
+mod kept;
+mod recorder;
+mod remains;
+mod replay;
+mod report;
+
+pub(crate) use kept::RecordingsPanel;
+pub(crate) use recorder::RecordButton;
+pub(crate) use remains::Remains;
+pub(crate) use replay::ReplayBar;
+
+use crate::{
+    app::{App, Source},
+    handout::save,
+};
+use encoderscope_web::{
+    link::{profile, query},
+    message::{Digest, FromRecorder, Kept, RecorderState, Story, ToRecorder},
+};
+use js_sys::Array;
+use leptos::prelude::*;
+use report::Report;
+use wasm_bindgen::{JsCast, JsValue};
+use web_sys::Blob;
+
+/// What the page knows of recordings.
+#[derive(Clone, Copy)]
+pub(crate) struct Recordings {
+    app: App,
+    state: RwSignal<RecorderState>,
+    list: RwSignal<Vec<Kept>>,
+    /// What could not be done.
+    fault: RwSignal<Option<String>>,
+    story: RwSignal<Option<Story>>,
+    /// The support file that is open.
+    opened: RwSignal<Option<Report>>,
+    comparison: RwSignal<Option<Box<[Digest; 2]>>>,
+}
+
+impl Recordings {
+    /// Those of the page, which listens to the engine from the first call on.
+    pub(crate) fn of(app: App) -> Self {
+        app.keep(|| {
+            let made = Self {
+                app,
+                state: RwSignal::new(RecorderState::default()),
+                list: RwSignal::new(Vec::new()),
+                fault: RwSignal::new(None),
+                story: RwSignal::new(None),
+                opened: RwSignal::new(None),
+                comparison: RwSignal::new(None),
+            };
+            app.hear(move |parcel| made.receive(&parcel));
+            made.send(&ToRecorder::List);
+            made
+        })
+    }
+
+    fn send(self, message: &ToRecorder) {
+        self.post(message, &JsValue::UNDEFINED);
+    }
+
+    /// Sends a message with a file beside it.
+    fn post(self, message: &ToRecorder, file: &JsValue) {
+        self.fault.set(None);
+        if let Ok(message) = serde_wasm_bindgen::to_value(message) {
+            self.app.post(Array::of2(&message, file).into());
+        }
+    }
+
+    fn receive(self, parcel: &Array) {
+        let Ok(message) = serde_wasm_bindgen::from_value::<FromRecorder>(parcel.get(0)) else {
+            return;
+        };
+        match message {
+            FromRecorder::State(state) => {
+                let replayed = state.replay.as_ref().map(|replay| replay.profile.clone());
+                let records = state.recording.as_ref().is_some_and(|one| one.runs);
+                self.app.records.set(records);
+                self.state.set(state);
+                match replayed {
+                    Some(text) => self.follow(&text),
+                    None => self.opened.set(None),
+                }
+            }
+            FromRecorder::List(list) => self.list.set(list),
+            FromRecorder::File(name) => {
+                if let Ok(file) = parcel.get(1).dyn_into::<Blob>() {
+                    save(&file, &name);
+                }
+            }
+            FromRecorder::Fault(text) => self.fault.set(Some(text)),
+            FromRecorder::Story(story) => self.story.set(Some(story)),
+            FromRecorder::Report(text) => self.opened.set(Some(Report::parse(&text))),
+            FromRecorder::Comparison(both) => self.comparison.set(Some(both)),
+        }
+    }
+
+    /// The encoder in the settings is the one that is replayed.
+    fn follow(self, text: &str) {
+        if self.app.source.get_untracked() != Source::Replay {
+            return;
+        }
+        if let Ok(profile) = profile(text)
+            && self.app.profile.get_untracked() != profile
+        {
+            self.app.running.set(Some(profile));
+            self.app.change_profile(profile);
+        }
+    }
+
+    /// Replays a recording that is kept.
+    fn replay(self, name: String) {
+        self.begin(name, &JsValue::UNDEFINED);
+    }
+
+    /// Replays a file of the user's.
+    pub(crate) fn open(self, name: String, file: &JsValue) {
+        self.begin(name, file);
+    }
+
+    fn begin(self, name: String, file: &JsValue) {
+        let app = self.app;
+        self.opened.set(None);
+        app.obstacle.set(None);
+        app.source.set(Source::Replay);
+        let profile = query(&app.readable());
+        self.post(&ToRecorder::Replay { name, profile }, file);
+    }
+}
+
+/// Bytes in few digits.
+fn size_text(bytes: f64) -> String {
+    match bytes {
+        1e9.. => format!("{:.2} GB", bytes / 1e9),
+        1e6.. => format!("{:.1} MB", bytes / 1e6),
+        1e3.. => format!("{:.0} kB", bytes / 1e3),
+        _ => format!("{bytes} bytes"),
+    }
+}
+
+/// Seconds as on a clock.
+fn clock_text(seconds: f64) -> String {
+    let seconds = seconds as u64;
+    let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
+    match hours {
+        0 => format!("{minutes}:{:02}", seconds % 60),
+        _ => format!("{hours}:{minutes:02}:{:02}", seconds % 60),
+    }
+}
+
+/// A time of day, with its date, on the user's clock.
+fn time_text(milliseconds: f64) -> String {
+    let date = js_sys::Date::new(&milliseconds.into());
+    format!(
+        "{}-{:02}-{:02} {:02}:{:02}:{:02}",
+        date.get_full_year(),
+        date.get_month() + 1,
+        date.get_date(),
+        date.get_hours(),
+        date.get_minutes(),
+        date.get_seconds()
+    )
+}

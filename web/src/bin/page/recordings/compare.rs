@@ -1,0 +1,131 @@
+//! Two recordings side by side.
+
+use super::{Recordings, clock_text};
+use encoderscope::explain::grouped;
+use encoderscope_web::{
+    message::{Digest, Lamp},
+    plot::Trace,
+};
+use leptos::prelude::*;
+
+/// Size of the picture, in its own units.
+const WIDTH: f64 = 800.0;
+const HEIGHT: f64 = 160.0;
+
+#[component]
+pub(super) fn Comparison(recordings: Recordings) -> impl IntoView {
+    move || {
+        recordings.comparison.get().map(|both| {
+            let [one, other] = *both;
+            let rows = rows(&one).into_iter().zip(rows(&other));
+            let rows = rows.map(|((name, left), (_, right))| {
+                let differs = left != right;
+                view! {
+                    <tr class:differs=differs data-testid="compared" data-name=name>
+                        <th scope="row">{name}</th>
+                        <td class="number">{left}</td>
+                        <td class="number">{right}</td>
+                    </tr>
+                }
+            });
+            let rows = rows.collect_view();
+            let long = one.seconds.max(other.seconds);
+            let line = |digest: &Digest| digest.angle.as_ref().map(|trace| points(trace, long));
+            view! {
+                <table class="comparison" data-testid="comparison">
+                    <thead>
+                        <tr>
+                            <td></td>
+                            <th scope="col" class="one">{one.name.clone()}</th>
+                            <th scope="col" class="other">{other.name.clone()}</th>
+                        </tr>
+                    </thead>
+                    <tbody>{rows}</tbody>
+                </table>
+                <svg
+                    class="overlay"
+                    viewBox=format!("0 0 {WIDTH} {HEIGHT}")
+                    role="img"
+                    aria-label="The angle of both over time"
+                >
+                    <path class="one" d=line(&one) />
+                    <path class="other" d=line(&other) />
+                </svg>
+                <p class="hint">{format!("The angle, 0 to 360°, over the first {}.", clock_text(long))}</p>
+            }
+        })
+    }
+}
+
+/// What a recording comes to, a row each.
+fn rows(digest: &Digest) -> Vec<(&'static str, String)> {
+    let counts = digest.counts;
+    let count = |value: f64| grouped(value as u64);
+    let all = counts.good + counts.bad + counts.silent;
+    let share = |part: f64| match all > 0.0 {
+        true => format!("{:.3} %", part / all * 100.0),
+        false => "–".into(),
+    };
+    let milliseconds =
+        |value: Option<f64>| value.map_or("–".into(), |value| format!("{value:.2} ms"));
+    let last = &digest.last;
+    let reading = last.reading.map_or("–".into(), |shown| match shown.turns {
+        Some(turns) => format!("{turns} turns, {:.4}°", shown.degrees),
+        None => format!("{:.4}°", shown.degrees),
+    });
+    let lit = |lamp: &&Lamp| lamp.seen > 0.0;
+    let lamps: Vec<_> = last
+        .lamps
+        .iter()
+        .filter(lit)
+        .map(|lamp| lamp.name.clone())
+        .collect();
+    vec![
+        ("length", clock_text(digest.seconds)),
+        ("encoder", digest.profile.clone()),
+        ("adapter", digest.adapter.clone()),
+        ("good frames", count(counts.good)),
+        ("bad frames", count(counts.bad)),
+        ("no answer", count(counts.silent)),
+        ("errors", share(counts.bad + counts.silent)),
+        ("bytes in", count(counts.bytes)),
+        ("skipped", count(counts.skipped)),
+        ("line errors", count(counts.line)),
+        (
+            "frames a second",
+            match digest.seconds > 0.0 {
+                true => count(counts.good / digest.seconds),
+                false => "–".into(),
+            },
+        ),
+        ("median reply", milliseconds(last.latency)),
+        ("99 of 100 replies", milliseconds(last.latency_p99)),
+        ("last reading", reading),
+        (
+            "status bits seen",
+            match lamps.is_empty() {
+                true => "none".into(),
+                false => lamps.join(", "),
+            },
+        ),
+    ]
+}
+
+/// The path of the angle over so many seconds, broken where the shaft passes 0.
+fn points(trace: &Trace, seconds: f64) -> String {
+    let first = trace.times.first().copied().unwrap_or_default();
+    let mut path = String::new();
+    let mut before = f64::NAN;
+    for (time, value) in trace.times.iter().zip(&trace.values) {
+        if value.is_nan() {
+            before = f64::NAN;
+            continue;
+        }
+        let x = (time - first) / seconds.max(1e-6) * WIDTH;
+        let y = HEIGHT * (1.0 - value / 360.0);
+        let joined = (value - before).abs() < 180.0;
+        path += &format!("{}{x:.1} {y:.1}", if joined { "L" } else { "M" });
+        before = *value;
+    }
+    path
+}

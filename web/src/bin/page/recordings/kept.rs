@@ -1,0 +1,155 @@
+//! The recordings that are there, and the support file.
+
+use super::{
+    Recordings,
+    compare::Comparison,
+    report::{Handing, Opened},
+    size_text, time_text,
+};
+use crate::app::App;
+use encoderscope_web::message::{Kept, ToRecorder};
+use leptos::{html, prelude::*};
+
+#[component]
+pub(crate) fn RecordingsPanel() -> impl IntoView {
+    let app = expect_context::<App>();
+    let recordings = Recordings::of(app);
+    // What is chosen to be compared, by name.
+    let chosen = RwSignal::new(Vec::<String>::new());
+    let compare = move |_| {
+        if let [one, other] = &chosen.get_untracked()[..] {
+            recordings.comparison.set(None);
+            recordings.send(&ToRecorder::Compare([one.clone(), other.clone()]));
+        }
+    };
+    view! {
+        <Opened recordings=recordings />
+        <section class="panel recordings">
+            <h2>"Recordings"</h2>
+            {move || recordings.fault.get().map(|why| view! { <p class="fault" role="alert" data-testid="recordings-fault">{why}</p> })}
+            {move || match recordings.list.with(Vec::is_empty) {
+                true => view! {
+                    <p class="hint">
+                        "A recording keeps every byte with its time and direction. It is written to this browser's "
+                        "storage as it comes, so that a crash takes half a second at most; Wireshark opens it, and "
+                        "so does this page."
+                    </p>
+                }.into_any(),
+                false => view! {
+                    <table data-testid="recordings">
+                        <thead>
+                            <tr>
+                                <th><span class="unseen">"compare"</span></th>
+                                <th>"name"</th>
+                                <th>"written"</th>
+                                <th>"size"</th>
+                                <th><span class="unseen">"what to do"</span></th>
+                            </tr>
+                        </thead>
+                        <tbody>
+                            <For each=move || recordings.list.get() key=Kept::key let(kept)>
+                                <Row recordings=recordings kept=kept chosen=chosen />
+                            </For>
+                        </tbody>
+                    </table>
+                }.into_any(),
+            }}
+            <div class="doors">
+                <OpenFile recordings=recordings />
+                {move || (recordings.list.with(Vec::len) > 1).then(|| view! {
+                    <button
+                        data-testid="compare"
+                        disabled=move || chosen.with(Vec::len) != 2
+                        title="Choose two recordings"
+                        on:click=compare
+                    >
+                        "Compare two"
+                    </button>
+                })}
+                <Handing recordings=recordings />
+            </div>
+            <Comparison recordings=recordings />
+        </section>
+    }
+}
+
+#[component]
+fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> impl IntoView {
+    let name = StoredValue::new(kept.name.clone());
+    let name = move || name.get_value();
+    let choose = move |on: bool| {
+        chosen.update(|chosen| {
+            chosen.retain(|known| *known != name());
+            if on {
+                chosen.push(name());
+            }
+            // The one that was chosen first gives way.
+            if chosen.len() > 2 {
+                chosen.remove(0);
+            }
+        });
+    };
+    let note = match (kept.runs, kept.whole) {
+        (true, _) => Some("runs"),
+        (false, false) => Some("cut off"),
+        (false, true) => None,
+    };
+    let asked = RwSignal::new(false);
+    view! {
+        <tr data-testid="recording" data-name=name() data-whole=kept.whole.to_string()>
+            <td>
+                <input
+                    type="checkbox"
+                    aria-label="Compare"
+                    prop:checked=move || chosen.with(|chosen| chosen.contains(&name()))
+                    on:change:target=move |event| choose(event.target().checked())
+                />
+            </td>
+            <td class="name">{name()} {note.map(|note| view! { " " <small>{note}</small> })}</td>
+            <td class="number">{time_text(kept.written)}</td>
+            <td class="number">{size_text(kept.size)}</td>
+            <td class="doors">
+                <button data-testid="replay" disabled=kept.runs on:click=move |_| recordings.replay(name())>"Replay"</button>
+                <button data-testid="save" on:click=move |_| recordings.send(&ToRecorder::Fetch(name()))>"Save"</button>
+                {move || match asked.get() {
+                    false => view! {
+                        <button class="quiet" data-testid="delete" disabled=kept.runs on:click=move |_| asked.set(true)>"Delete…"</button>
+                    }.into_any(),
+                    true => view! {
+                        <button data-testid="delete-confirm" on:click=move |_| recordings.send(&ToRecorder::Delete(name()))>
+                            "Delete for good"
+                        </button>
+                        <button class="quiet" on:click=move |_| asked.set(false)>"Keep"</button>
+                    }.into_any(),
+                }}
+            </td>
+        </tr>
+    }
+}
+
+/// Replays a file of the user's, or opens a support file.
+#[component]
+fn OpenFile(recordings: Recordings) -> impl IntoView {
+    let chooser = NodeRef::<html::Input>::new();
+    view! {
+        <label class="button">
+            "Open a recording or support file"
+            <input
+                type="file"
+                class="unseen"
+                accept=".pcapng"
+                data-testid="recording-file"
+                node_ref=chooser
+                on:change=move |_| {
+                    if let Some(input) = chooser.get() {
+                        if let Some(file) = input.files().and_then(|files| files.get(0)) {
+                            recordings.open(file.name(), &file);
+                        }
+                        // The same file may be chosen again.
+                        input.set_value("");
+                    }
+                }
+            />
+        </label>
+    }
+}

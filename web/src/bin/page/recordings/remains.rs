@@ -1,0 +1,65 @@
+//! Recordings that were cut off, offered with the next visit.
+
+use super::{Recordings, size_text, time_text};
+use crate::app::App;
+use encoderscope_web::message::{Kept, ToRecorder};
+use leptos::prelude::*;
+
+#[component]
+pub(crate) fn Remains() -> impl IntoView {
+    let recordings = Recordings::of(expect_context::<App>());
+    let remains = Memo::new(move |_| {
+        let cut = |kept: &&Kept| !kept.whole && !kept.runs;
+        let list = recordings.list.get();
+        list.iter().filter(cut).cloned().collect::<Vec<_>>()
+    });
+    view! {
+        <For each=move || remains.get() key=Kept::key let(kept)>
+            <Offer recordings=recordings kept=kept />
+        </For>
+    }
+}
+
+#[component]
+fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
+    let name = StoredValue::new(kept.name.clone());
+    let settle = move || recordings.send(&ToRecorder::Settle(name.get_value()));
+    view! {
+        <section class="panel remains" role="status" data-testid="remains" data-name=kept.name.clone()>
+            <h2>"A recording was cut off"</h2>
+            <p>
+                {format!(
+                    "{}, {}, last written {}. The browser or the machine stopped meanwhile; up to half a second before that, everything is there.",
+                    kept.name,
+                    size_text(kept.size),
+                    time_text(kept.written)
+                )}
+            </p>
+            <div class="doors">
+                <button
+                    class="primary"
+                    data-testid="remains-replay"
+                    on:click=move |_| {
+                        settle();
+                        recordings.replay(name.get_value());
+                    }
+                >
+                    "Replay it"
+                </button>
+                <button
+                    data-testid="remains-save"
+                    on:click=move |_| {
+                        settle();
+                        recordings.send(&ToRecorder::Fetch(name.get_value()));
+                    }
+                >
+                    "Save it"
+                </button>
+                <button data-testid="remains-keep" on:click=move |_| settle()>"Keep it"</button>
+                <button class="quiet" on:click=move |_| recordings.send(&ToRecorder::Delete(name.get_value()))>
+                    "Delete it"
+                </button>
+            </div>
+        </section>
+    }
+}

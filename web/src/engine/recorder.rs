@@ -1,0 +1,401 @@
+//! Recordings: writing what is said on the line as it comes, and handing it out.
+
+mod copy;
+
+use super::{Engine, State};
+use crate::{
+    browser::{now, origin},
+    message::{FromRecorder, Kept, Place, RecorderState, Recording, Story, ToRecorder},
+    store::{self, Out},
+};
+use copy::Copy;
+use encoderscope::session::Micros;
+use js_sys::{Array, Date, Uint8Array};
+use std::rc::Rc;
+use wasm_bindgen::{JsCast, JsValue};
+use web_sys::{Blob, FileSystemFileHandle};
+
+/// What has come is written so often, which is all that a crash can take.
+const WRITE: Micros = 500_000;
+/// More than this is written at once.
+const MUCH: usize = 262_144;
+/// Memory takes no more, in bytes.
+const ROOM: f64 = 536_870_912.0;
+/// The page is told so often how it goes.
+const TELL: Micros = 200_000;
+/// A start is busy enough without looking for recordings that were cut off, in milliseconds.
+const LATER: f64 = 1_000.0;
+
+/// Recordings, and what the page knows of them.
+#[derive(Default)]
+pub(super) struct Recorder {
+    running: Option<Running>,
+    /// How the last one stands or has ended.
+    last: Option<Recording>,
+    /// Recordings that are nowhere but in memory.
+    in_memory: Vec<(String, Blob)>,
+    told: RecorderState,
+    next_tell: Micros,
+}
+
+struct Running {
+    name: String,
+    began: Micros,
+    written: Micros,
+    sink: Sink,
+    copy: Option<Rc<Copy>>,
+}
+
+enum Sink {
+    /// The file is being made.
+    Coming,
+    File(Out),
+    Memory {
+        parts: Array,
+        size: f64,
+    },
+}
+
+impl Sink {
+    fn memory() -> Self {
+        Self::Memory {
+            parts: Array::new(),
+            size: 0.0,
+        }
+    }
+
+    const fn size(&self) -> f64 {
+        match self {
+            Self::Coming => 0.0,
+            Self::File(out) => out.size(),
+            Self::Memory { size, .. } => *size,
+        }
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
+        match self {
+            Self::Coming => Ok(()),
+            Self::File(out) => out.append(bytes),
+            Self::Memory { size, .. } if *size + bytes.len() as f64 > ROOM => {
+                Err("There is no room left for it in memory.".into())
+            }
+            Self::Memory { parts, size } => {
+                parts.push(&Uint8Array::from(bytes));
+                *size += bytes.len() as f64;
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Running {
+    fn shown(&self, now: Micros) -> Recording {
+        Recording {
+            name: self.name.clone(),
+            seconds: now.saturating_sub(self.began) as f64 / 1e6,
+            size: self.sink.size(),
+            place: match self.sink {
+                Sink::Memory { .. } => Place::Memory,
+                Sink::Coming | Sink::File(_) => Place::Storage,
+            },
+            copy: self.copy.as_ref().map(|copy| copy.name()),
+            runs: true,
+            fault: self.copy.as_ref().and_then(|copy| copy.fault()),
+        }
+    }
+}
+
+/// A name that tells when the recording began, on the user's clock.
+fn name() -> String {
+    let date = Date::new_0();
+    format!(
+        "encoderscope-{}-{:02}-{:02}-{:02}-{:02}-{:02}.pcapng",
+        date.get_full_year(),
+        date.get_month() + 1,
+        date.get_date(),
+        date.get_hours(),
+        date.get_minutes(),
+        date.get_seconds()
+    )
+}
+
+impl Engine {
+    /// Does what the page asks of recordings; a message may bring a file.
+    pub fn record(&self, message: ToRecorder, file: Option<JsValue>) {
+        match message {
+            ToRecorder::Record => self.begin_recording(),
+            ToRecorder::Stop => {
+                self.state.borrow_mut().end_recording(None);
+                self.list();
+            }
+            ToRecorder::Mark(note) => self.state.borrow_mut().tally.note(now(), &note),
+            ToRecorder::Copy => {
+                if let Some(Ok(handle)) = file.map(JsCast::dyn_into) {
+                    self.copy(handle);
+                }
+            }
+            ToRecorder::List => self.list(),
+            ToRecorder::Settle(name) => self.change(async move { store::settle(&name).await }),
+            ToRecorder::Delete(name) => {
+                let memory = &mut self.state.borrow_mut().recorder.in_memory;
+                memory.retain(|(known, _)| *known != name);
+                self.change(async move { store::delete(&name).await });
+            }
+            ToRecorder::Fetch(name) => {
+                let engine = self.clone();
+                wasm_bindgen_futures::spawn_local(async move {
+                    match engine.recording(&name).await {
+                        Some(file) => engine.hand(FromRecorder::File(name), Some(file.into())),
+                        None => engine.fault("This recording is not there any more."),
+                    }
+                });
+            }
+            ToRecorder::Story => {
+                let story = self.state.borrow_mut().story();
+                self.hand(FromRecorder::Story(story), None);
+            }
+            ToRecorder::Report(text) => self.report(&text),
+            ToRecorder::Replay { name, profile } => self.replay(name, profile, file),
+            ToRecorder::Play(speed) => self.state.borrow_mut().play_at(speed),
+            ToRecorder::Seek(part) => self.seek(part),
+            ToRecorder::Compare(names) => self.compare(names),
+        }
+        self.pump();
+    }
+
+    /// Says something of recordings to the page.
+    pub(super) fn hand(&self, message: FromRecorder, file: Option<JsValue>) {
+        (self.state.borrow().hand)(message, file);
+    }
+
+    pub(super) fn fault(&self, text: &str) {
+        self.hand(FromRecorder::Fault(text.into()), None);
+    }
+
+    /// Tells the page of recordings that were cut off, if there are any.
+    pub(super) fn look_for_remains(&self) {
+        let engine = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            crate::browser::pause(LATER).await;
+            let all = store::list().await.unwrap_or_default();
+            if all.iter().any(|kept| !kept.whole && !kept.runs) {
+                engine.hand(FromRecorder::List(all), None);
+            }
+        });
+    }
+
+    fn begin_recording(&self) {
+        let wanted = name();
+        {
+            let mut state = self.state.borrow_mut();
+            if state.recorder.running.is_some() {
+                return;
+            }
+            let now = now();
+            state.tally.transcript().begin(now);
+            state.recorder.running = Some(Running {
+                name: wanted.clone(),
+                began: now,
+                written: now,
+                sink: Sink::Coming,
+                copy: None,
+            });
+        }
+        let engine = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            let made = Out::create(&wanted).await;
+            let ended = {
+                let running = &mut engine.state.borrow_mut().recorder.running;
+                let running = running.as_mut().filter(|running| running.name == wanted);
+                running
+                    .map(|running| running.sink = made.map_or_else(|_| Sink::memory(), Sink::File))
+            };
+            if ended.is_none() {
+                // Nothing has been written into it.
+                engine.change(async move { store::delete(&wanted).await });
+            }
+            engine.pump();
+        });
+    }
+
+    fn copy(&self, handle: FileSystemFileHandle) {
+        let (copy, name, size) = {
+            let mut state = self.state.borrow_mut();
+            let Some(running) = &mut state.recorder.running else {
+                return;
+            };
+            let copy = Rc::new(Copy::new(handle));
+            running.copy = Some(Rc::clone(&copy));
+            (copy, running.name.clone(), running.sink.size())
+        };
+        let engine = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            let whole = engine.recording(&name).await;
+            let front = whole.and_then(|whole| whole.slice_with_f64_and_f64(0.0, size).ok());
+            copy.run(front).await;
+            engine.pump();
+        });
+    }
+
+    /// A recording, as far as it has come.
+    pub(super) async fn recording(&self, name: &str) -> Option<Blob> {
+        let in_memory = {
+            let state = self.state.borrow();
+            let recorder = &state.recorder;
+            let ended = recorder.in_memory.iter().find(|(known, _)| known == name);
+            let running = recorder.running.as_ref().filter(|one| one.name == name);
+            match (ended, running.map(|running| &running.sink)) {
+                (Some((_, blob)), _) => Some(blob.clone()),
+                (None, Some(Sink::Memory { parts, .. })) => blob_of(parts),
+                _ => None,
+            }
+        };
+        match in_memory {
+            Some(blob) => Some(blob),
+            None => store::open(name).await.ok().map(Into::into),
+        }
+    }
+
+    /// Changes what is kept, and says what is there then.
+    fn change(&self, change: impl Future<Output = Result<(), JsValue>> + 'static) {
+        let engine = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            // What is not there any more needs no change.
+            let _ = change.await;
+            engine.list();
+        });
+    }
+
+    fn list(&self) {
+        let engine = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            // Where nothing is kept, there is what is in memory.
+            let mut all = store::list().await.unwrap_or_default();
+            {
+                let state = engine.state.borrow();
+                let in_memory = state.recorder.in_memory.iter().rev();
+                let in_memory = in_memory.map(|(name, blob)| Kept {
+                    name: name.clone(),
+                    size: blob.size(),
+                    written: Date::now(),
+                    runs: false,
+                    whole: true,
+                });
+                all.splice(0..0, in_memory);
+            }
+            engine.hand(FromRecorder::List(all), None);
+        });
+    }
+
+    /// A support file: what was said of late, with a text in front.
+    fn report(&self, text: &str) {
+        let mut state = self.state.borrow_mut();
+        let (file, _) = state.tally.transcript().late(now(), text);
+        drop(state);
+        let blob = blob_of(&Array::of1(&Uint8Array::from(&file[..])));
+        let name = name().replace(".pcapng", "-report.pcapng");
+        self.hand(FromRecorder::File(name), blob.map(Into::into));
+    }
+}
+
+fn blob_of(parts: &Array) -> Option<Blob> {
+    Blob::new_with_u8_array_sequence(parts).ok()
+}
+
+impl State {
+    /// Writes what has come, and tells the page how recordings and replays go; returns when to
+    /// do so again.
+    pub(super) fn keep(&mut self, now: Micros) -> Option<Micros> {
+        let due = self.write(now);
+        let told = self.tell_recorder(now);
+        let replays = self.is_replaying().then_some(now + TELL);
+        [due, told, replays].into_iter().flatten().min()
+    }
+
+    fn write(&mut self, now: Micros) -> Option<Micros> {
+        let running = self.recorder.running.as_mut()?;
+        let untaken = self.tally.transcript().untaken()?;
+        let due = running.written + WRITE;
+        if (now < due && untaken.len() < MUCH) || matches!(running.sink, Sink::Coming) {
+            return Some(due.max(now + 1_000));
+        }
+        running.written = now;
+        let bytes = std::mem::take(untaken);
+        if !bytes.is_empty() {
+            if let Err(why) = running.sink.append(&bytes) {
+                self.end_recording(Some(why));
+                return None;
+            }
+            if let Some(copy) = &running.copy {
+                copy.push(&bytes);
+            }
+        }
+        Some(now + WRITE)
+    }
+
+    /// Ends the recording that runs.
+    pub(super) fn end_recording(&mut self, fault: Option<String>) {
+        let now = now();
+        let Some(mut running) = self.recorder.running.take() else {
+            return;
+        };
+        let why = fault.as_deref().unwrap_or("stopped");
+        let rest = self.tally.transcript().end(now, why);
+        if matches!(running.sink, Sink::Coming) {
+            running.sink = Sink::memory();
+        }
+        // A storage that is full takes the end alone at best; the recording is good without it.
+        let written = running.sink.append(&rest);
+        if let Some(copy) = &running.copy {
+            copy.push(&rest);
+            copy.end();
+        }
+        let shown = running.shown(now);
+        self.recorder.last = Some(Recording {
+            runs: false,
+            fault: fault.or(written.err()).or(shown.fault.clone()),
+            ..shown
+        });
+        if let Sink::Memory { parts, .. } = &running.sink
+            && let Some(blob) = blob_of(parts)
+        {
+            self.recorder.in_memory.push((running.name, blob));
+        }
+    }
+
+    /// Tells the page how recordings and replays go; returns when to look again, where it is too
+    /// soon.
+    fn tell_recorder(&mut self, now: Micros) -> Option<Micros> {
+        if now < self.recorder.next_tell {
+            return Some(self.recorder.next_tell);
+        }
+        let running = self.recorder.running.as_ref();
+        let state = RecorderState {
+            recording: running
+                .map(|running| running.shown(now))
+                .or_else(|| self.recorder.last.clone()),
+            replay: self.replay_shown(),
+        };
+        if state != self.recorder.told {
+            self.recorder.next_tell = now + TELL;
+            self.recorder.told = state.clone();
+            (self.hand)(FromRecorder::State(state), None);
+        }
+        None
+    }
+
+    fn story(&mut self) -> Story {
+        let origin = origin() as f64;
+        let milliseconds = |at: Micros| (origin + at as f64) / 1e3;
+        let happenings = self.tally.happenings();
+        let happenings = happenings
+            .map(|(at, text)| (milliseconds(at), text.to_owned()))
+            .collect();
+        let (size, since) = self.tally.transcript().kept(now());
+        Story {
+            happenings,
+            size: size as f64,
+            seconds: since as f64 / 1e6,
+        }
+    }
+}

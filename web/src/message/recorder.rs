@@ -1,0 +1,179 @@
+//! What the page and the engine say to each other of recordings. Only parts of the page that come
+//! when they are wanted know these messages, which come as arrays, with a file beside them.
+
+use super::{Counts, Snapshot};
+use crate::plot::Trace;
+use serde::{Deserialize, Serialize};
+
+/// From the page to the engine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ToRecorder {
+    /// Record from now on.
+    Record,
+    /// Write the recording into the file beside this, too.
+    Copy,
+    /// Leave a note in the recording.
+    Mark(String),
+    /// End the recording.
+    Stop,
+    /// Which recordings are there.
+    List,
+    /// Give a recording that was cut off its end.
+    Settle(String),
+    /// Let a recording go.
+    Delete(String),
+    /// Hand out a recording.
+    Fetch(String),
+    /// Replay a recording, or the file beside this.
+    Replay {
+        /// Its name.
+        name: String,
+        /// The profile, as the parameters of a link, where the recording has none.
+        profile: String,
+    },
+    /// Go on at this speed: 1 is as it was, 0 holds.
+    Play(f64),
+    /// Go on at this part of the recording, 0…1.
+    Seek(f64),
+    /// Read two recordings to their end, and say what each comes to.
+    Compare([String; 2]),
+    /// What happened of late.
+    Story,
+    /// Make a support file, with this in front.
+    Report(String),
+}
+
+/// From the engine to the page.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum FromRecorder {
+    /// What runs.
+    State(RecorderState),
+    /// The recordings that are there, newest first.
+    List(Vec<Kept>),
+    /// The file beside this is to be saved under a name.
+    File(String),
+    /// Something could not be done.
+    Fault(String),
+    /// What happened of late, newest last.
+    Story(Story),
+    /// A support file was opened: what stands in front of it.
+    Report(String),
+    /// What two recordings come to.
+    Comparison(Box<[Digest; 2]>),
+}
+
+/// What runs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RecorderState {
+    /// The recording that runs, or has run last.
+    pub recording: Option<Recording>,
+    /// The recording that is replayed.
+    pub replay: Option<Replay>,
+}
+
+/// A recording that runs, or has run last.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Recording {
+    /// Its name.
+    pub name: String,
+    /// How long it has run, in seconds.
+    pub seconds: f64,
+    /// How long it is, in bytes.
+    pub size: f64,
+    /// Where it is written.
+    pub place: Place,
+    /// The name of the user's file that it goes to as well.
+    pub copy: Option<String>,
+    /// It runs.
+    pub runs: bool,
+    /// Why it was ended, where the user did not.
+    pub fault: Option<String>,
+}
+
+/// Where a recording is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Place {
+    /// Into the browser's storage, which a crash leaves as it is.
+    #[default]
+    Storage,
+    /// Into memory.
+    Memory,
+}
+
+/// A recording that is replayed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Replay {
+    /// Its name.
+    pub name: String,
+    /// The profile of what is being read, as the parameters of a link.
+    pub profile: String,
+    /// The adapter that it was recorded with.
+    pub adapter: String,
+    /// Where it is, in milliseconds since 1970.
+    pub time: f64,
+    /// How much of the file has been read, 0…1.
+    pub part: f64,
+    /// How fast it goes; 0 holds.
+    pub speed: f64,
+    /// It has come to its end.
+    pub ended: bool,
+    /// Bytes that could not be read: damage, or an end that is missing.
+    pub lost: f64,
+    /// The notes in it so far, each with its time in milliseconds since 1970.
+    pub notes: Vec<(f64, String)>,
+}
+
+/// A recording that is there.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Kept {
+    /// Its name.
+    pub name: String,
+    /// How long it is, in bytes.
+    pub size: f64,
+    /// When it was last written to, in milliseconds since 1970.
+    pub written: f64,
+    /// It is being written, perhaps in another tab.
+    pub runs: bool,
+    /// It was ended, and not cut off.
+    pub whole: bool,
+}
+
+impl Kept {
+    /// What a row of a list shows of it.
+    #[must_use]
+    pub fn key(&self) -> (String, u64, bool, bool) {
+        (self.name.clone(), self.size as u64, self.runs, self.whole)
+    }
+}
+
+/// What happened of late.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Story {
+    /// Each with its time in milliseconds since 1970.
+    pub happenings: Vec<(f64, String)>,
+    /// What is kept of the line: how many bytes.
+    pub size: f64,
+    /// For how many seconds they go back.
+    pub seconds: f64,
+}
+
+/// What a recording comes to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Digest {
+    /// Its name.
+    pub name: String,
+    /// From its first to its last moment, in seconds.
+    pub seconds: f64,
+    /// The profile that it was last read with, as the parameters of a link.
+    pub profile: String,
+    /// The adapter.
+    pub adapter: String,
+    /// Counts over all of it.
+    pub counts: Counts,
+    /// What was last shown.
+    pub last: Box<Snapshot>,
+    /// The angle over time.
+    pub angle: Option<Trace>,
+}
