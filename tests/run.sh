@@ -7,6 +7,7 @@ source web/toolchain.sh
 if ! command -v chromium >/dev/null || ! command -v chromedriver >/dev/null; then
   apt_get "Chromium, which runs the tests" chromium chromium-driver
 fi
+command -v tshark >/dev/null || apt_get "Wireshark, which reads recordings" tshark
 command -v python3 >/dev/null || apt_get "Python, which runs the exported decoders" python3
 export CHROMEDRIVER=${CHROMEDRIVER:-/usr/bin/chromedriver}
 

@@ -48,6 +48,15 @@ impl Transcript {
         }
     }
 
+    /// A time of the line in microseconds since 1970.
+    #[must_use]
+    pub const fn absolute(&self, now: Micros) -> Micros {
+        match self.replays {
+            true => now,
+            false => self.origin + now,
+        }
+    }
+
     /// A line was opened, or goes on with another profile.
     pub fn open(&mut self, now: Micros, line: Line) {
         self.put(now, |writer, at, out| writer.open(at, line, out));

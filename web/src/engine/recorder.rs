@@ -4,7 +4,7 @@ mod copy;
 
 use super::{Engine, State};
 use crate::{
-    browser::{now, origin},
+    browser::now,
     message::{FromRecorder, Kept, Place, RecorderState, Recording, Story, ToRecorder},
     store::{self, Out},
 };
@@ -385,11 +385,9 @@ impl State {
     }
 
     fn story(&mut self) -> Story {
-        let origin = origin() as f64;
-        let milliseconds = |at: Micros| (origin + at as f64) / 1e3;
         let happenings = self.tally.happenings();
         let happenings = happenings
-            .map(|(at, text)| (milliseconds(at), text.to_owned()))
+            .map(|(at, text)| (at as f64 / 1e3, text.to_owned()))
             .collect();
         let (size, since) = self.tally.transcript().kept(now());
         Story {

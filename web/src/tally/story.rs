@@ -30,7 +30,7 @@ impl Story {
 impl Tally {
     /// Something happened.
     pub fn happened(&mut self, now: Micros, text: String) {
-        self.story.push(now, text);
+        self.story.push(self.transcript.absolute(now), text);
     }
 
     /// Something happened that the transcript should tell, too.
@@ -39,7 +39,7 @@ impl Tally {
         self.happened(now, text.into());
     }
 
-    /// What happened of late, oldest first.
+    /// What happened of late, oldest first, with the time in microseconds since 1970.
     pub fn happenings(&self) -> impl Iterator<Item = (Micros, &str)> {
         let happenings = self.story.happenings.iter();
         happenings.map(|(at, text)| (*at, text.as_str()))
@@ -73,7 +73,8 @@ impl Tally {
                 _ => "",
             };
             if !what.is_empty() {
-                self.story.push(now, format!("{name}: {what}"));
+                let at = self.transcript.absolute(now);
+                self.story.push(at, format!("{name}: {what}"));
             }
             match before {
                 Some(_) => self.story.bits[index] = (set, *seen),

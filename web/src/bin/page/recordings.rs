@@ -79,7 +79,7 @@ impl Recordings {
             FromRecorder::State(state) => {
                 let replayed = state.replay.as_ref().map(|replay| replay.profile.clone());
                 let records = state.recording.as_ref().is_some_and(|one| one.runs);
-                self.app.records.set(records);
+                self.app.recording.set(records);
                 self.state.set(state);
                 match replayed {
                     Some(text) => self.follow(&text),

@@ -18,7 +18,7 @@ pub(crate) fn RecordButton() -> impl IntoView {
     let app = expect_context::<App>();
     let recordings = Recordings::of(app);
     let recording = Memo::new(move |_| recordings.state.with(|state| state.recording.clone()));
-    let runs = app.records;
+    let runs = app.recording;
     let press = move |_| match runs.get_untracked() {
         true => recordings.send(&ToRecorder::Stop),
         false => {

@@ -29,7 +29,7 @@ fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
             <h2>"A recording was cut off"</h2>
             <p>
                 {format!(
-                    "{}, {}, last written {}. The browser or the machine stopped meanwhile; up to half a second before that, everything is there.",
+                    "{}, {}, last written {}. It was not ended: the page was closed, or the browser or the machine stopped. Up to half a second before that, everything is there.",
                     kept.name,
                     size_text(kept.size),
                     time_text(kept.written)
