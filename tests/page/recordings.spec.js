@@ -220,7 +220,7 @@ test('two recordings are compared', async ({ page }) => {
   await page.waitForTimeout(1_200);
   await stop(page);
   await page.getByText('Demo status and faults').click();
-  await page.locator('input[name="flip"]').fill('50');
+  await page.locator('input[name="demo-flip"]').fill('50');
   await until(page, 'frames-bad', (frames) => frames > 5);
   await record(page);
   await page.waitForTimeout(1_200);

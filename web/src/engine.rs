@@ -13,7 +13,7 @@ mod wishes;
 use crate::{
     browser::{Timer, now, origin, system},
     link,
-    message::{FromEngine, FromRecorder, Link, PortId, Snapshot, ToEngine},
+    message::{Answer, FromEngine, Link, PortId, Snapshot, ToEngine},
     tally::Tally,
     transcript::Transcript,
 };
@@ -47,8 +47,8 @@ pub struct Engine {
 
 struct State {
     post: Box<dyn Fn(FromEngine)>,
-    /// Says something of recordings, with a file beside it.
-    hand: Box<dyn Fn(FromRecorder, Option<JsValue>)>,
+    /// Answers a wish, with a file beside it.
+    hand: Box<dyn Fn(Answer, Option<JsValue>)>,
     timer: Option<Timer>,
     link: Link,
     /// Requests are so far apart.
@@ -89,10 +89,10 @@ impl std::fmt::Debug for Engine {
 }
 
 impl Engine {
-    /// An engine that answers through `post`, and through `hand` what is about recordings.
+    /// An engine that speaks through `post`, and answers wishes through `hand`.
     pub fn new(
         post: impl Fn(FromEngine) + 'static,
-        hand: impl Fn(FromRecorder, Option<JsValue>) + 'static,
+        hand: impl Fn(Answer, Option<JsValue>) + 'static,
     ) -> Self {
         let engine = Self {
             state: Rc::new(RefCell::new(State {
@@ -132,27 +132,8 @@ impl Engine {
     pub fn handle(&self, message: ToEngine) {
         let mut state = self.state.borrow_mut();
         match message {
-            // A recording hears nothing.
-            ToEngine::Scan
-            | ToEngine::Watch(_)
-            | ToEngine::Send { .. }
-            | ToEngine::ReadMemory(_)
-                if state.is_replaying() => {}
             ToEngine::Next => state.wanted = true,
-            ToEngine::Set(setting) => state.begin(setting),
-            ToEngine::StopSetting => state.stop(),
-            ToEngine::ForgetSetting => state.tally.forget_progress(),
-            ToEngine::Scan => state.scan(),
-            ToEngine::Watch(address) => state.watch(address),
-            ToEngine::Send { bytes, confirmed } => state.send(&bytes, confirmed),
-            ToEngine::Pace(rate) => state.pace(rate),
             ToEngine::Log(filter) => state.tally.filter(filter),
-            ToEngine::ReadMemory(address) => state.read_memory(address),
-            ToEngine::Supply(supply) => state.supply(supply),
-            ToEngine::Turn(speed) => state.turn(speed),
-            ToEngine::Knobs(knobs) => state.adjust(knobs),
-            ToEngine::Plot(request) => state.plot(&request),
-            ToEngine::Rest => state.rest(),
             ToEngine::Open { .. }
             | ToEngine::Demo { .. }
             | ToEngine::Find { .. }

@@ -1,22 +1,23 @@
 //! What the page and the engine say to each other.
 //!
 //! The engine lives in a dedicated worker, or on the page where the browser has no serial in
-//! workers; either way these are the messages.
+//! workers; either way these are the messages. What the first view says and hears is [`ToEngine`] and
+//! [`FromEngine`]; [`Wish`] and [`Answer`] are known to parts alone that come when they are wanted, so
+//! that the first view need not carry them. They are the first of an array; a file may be the second.
 
 mod desk;
 mod recorder;
 mod search;
+mod wish;
 
 pub use desk::{
     CandidateView, Count, Explained, FieldView, FileKind, FromDesk, Marked, NearView, Overview,
     RowState, RowView, Selection, ToDesk, TraceView,
 };
-pub use recorder::{
-    Digest, FromRecorder, Kept, Place, RecorderState, Recording, Replay, Story, ToRecorder,
-};
+pub use recorder::{Digest, Kept, Place, RecorderState, Recording, Replay, Story};
 pub use search::{Found, Search, SearchStage, Trial};
+pub use wish::{Answer, Wish};
 
-use crate::plot::{Plot, PlotRequest, Rest};
 use encoderscope::sequence::Change;
 use serde::{Deserialize, Serialize};
 
@@ -35,12 +36,6 @@ pub enum ToEngine {
         /// The profile, as the parameters of a link.
         profile: String,
     },
-    /// Change the encoder that is being read: begin a sequence.
-    Set(Setting),
-    /// End the sequence before its next command.
-    StopSetting,
-    /// Take the outcome of the last sequence off the page.
-    ForgetSetting,
     /// Search for the encoder on a port, or for the built-in one.
     Find {
         /// Which port; nothing for the built-in encoder.
@@ -48,33 +43,8 @@ pub enum ToEngine {
         /// The profile, as the parameters of a link; the built-in encoder is made from it.
         profile: String,
     },
-    /// Look for every device on the BUS that is being read, then read them all.
-    Scan,
-    /// Show this device of the BUS on the dial.
-    Watch(u8),
-    /// Send bytes by hand.
-    Send {
-        /// The bytes.
-        bytes: Vec<u8>,
-        /// Whether the user has been asked about those that change an encoder.
-        confirmed: bool,
-    },
-    /// Ask so many times a second from now on; 0 is as fast as the link allows.
-    Pace(f64),
     /// Which entries of the log the page shows.
     Log(LogFilter),
-    /// Read a cell of the EEPROM (T485, Tamagawa), 0…127.
-    ReadMemory(u8),
-    /// Switch the supply of the built-in encoder.
-    Supply(Supply),
-    /// Turn the shaft of the built-in encoder evenly, in revolutions per second.
-    Turn(f64),
-    /// What the built-in encoder reports, and what goes wrong on its line.
-    Knobs(Knobs),
-    /// The page wants to plot.
-    Plot(PlotRequest),
-    /// The page wants to know how much the angle of a shaft at rest varies.
-    Rest,
     /// Stop and close the port.
     Close,
     /// The page has drawn the last snapshot and wants the next.
@@ -236,10 +206,6 @@ pub enum FromEngine {
     Snapshot(Box<Snapshot>),
     /// The reading between snapshots.
     Reading(Shown),
-    /// What there is to plot.
-    Plot(Box<Plot>),
-    /// How much the angle varied within the last second, where anything was read.
-    Rest(Option<Box<Rest>>),
 }
 
 /// A port among those that the page has permission for.

@@ -5,14 +5,14 @@ mod copy;
 use super::{Engine, State};
 use crate::{
     browser::now,
-    message::{FromRecorder, Kept, Place, RecorderState, Recording, Story, ToRecorder},
+    message::{Answer, Kept, Place, RecorderState, Recording, Story},
     store::{self, Out},
 };
 use copy::Copy;
 use encoderscope::session::Micros;
 use js_sys::{Array, Date, Uint8Array};
 use std::rc::Rc;
-use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen::JsValue;
 use web_sys::{Blob, FileSystemFileHandle};
 
 /// What has come is written so often, which is all that a crash can take.
@@ -120,56 +120,8 @@ fn name() -> String {
 }
 
 impl Engine {
-    /// Does what the page asks of recordings; a message may bring a file.
-    pub fn record(&self, message: ToRecorder, file: Option<JsValue>) {
-        match message {
-            ToRecorder::Record => self.begin_recording(),
-            ToRecorder::Stop => {
-                self.state.borrow_mut().end_recording(None);
-                self.list();
-            }
-            ToRecorder::Mark(note) => self.state.borrow_mut().tally.note(now(), &note),
-            ToRecorder::Copy => {
-                if let Some(Ok(handle)) = file.map(JsCast::dyn_into) {
-                    self.copy(handle);
-                }
-            }
-            ToRecorder::List => self.list(),
-            ToRecorder::Settle(name) => self.change(async move { store::settle(&name).await }),
-            ToRecorder::Delete(name) => {
-                let memory = &mut self.state.borrow_mut().recorder.in_memory;
-                memory.retain(|(known, _)| *known != name);
-                self.change(async move { store::delete(&name).await });
-            }
-            ToRecorder::Fetch(name) => {
-                let engine = self.clone();
-                wasm_bindgen_futures::spawn_local(async move {
-                    match engine.recording(&name).await {
-                        Some(file) => engine.hand(FromRecorder::File(name), Some(file.into())),
-                        None => engine.fault("This recording is not there any more."),
-                    }
-                });
-            }
-            ToRecorder::Story => {
-                let story = self.state.borrow_mut().story();
-                self.hand(FromRecorder::Story(story), None);
-            }
-            ToRecorder::Report(text) => self.report(&text),
-            ToRecorder::Replay { name, profile } => self.replay(name, profile, file),
-            ToRecorder::Play(speed) => self.state.borrow_mut().play_at(speed),
-            ToRecorder::Seek(part) => self.seek(part),
-            ToRecorder::Compare(names) => self.compare(names),
-        }
-        self.pump();
-    }
-
-    /// Says something of recordings to the page.
-    pub(super) fn hand(&self, message: FromRecorder, file: Option<JsValue>) {
-        (self.state.borrow().hand)(message, file);
-    }
-
     pub(super) fn fault(&self, text: &str) {
-        self.hand(FromRecorder::Fault(text.into()), None);
+        self.hand(Answer::Fault(text.into()), None);
     }
 
     /// Tells the page of recordings that were cut off, if there are any.
@@ -179,12 +131,42 @@ impl Engine {
             crate::browser::pause(LATER).await;
             let all = store::list().await.unwrap_or_default();
             if all.iter().any(|kept| !kept.whole && !kept.runs) {
-                engine.hand(FromRecorder::List(all), None);
+                engine.hand(Answer::Recordings(all), None);
             }
         });
     }
 
-    fn begin_recording(&self) {
+    /// Ends the recording that runs.
+    pub(super) fn stop_recording(&self) {
+        self.state.borrow_mut().end_recording(None);
+        self.list();
+    }
+
+    /// Lets a recording go.
+    pub(super) fn delete(&self, name: String) {
+        let memory = &mut self.state.borrow_mut().recorder.in_memory;
+        memory.retain(|(known, _)| *known != name);
+        self.change(async move { store::delete(&name).await });
+    }
+
+    /// Gives a recording that was cut off its end.
+    pub(super) fn settle(&self, name: String) {
+        self.change(async move { store::settle(&name).await });
+    }
+
+    /// Hands out a recording.
+    pub(super) fn fetch(&self, name: String) {
+        let engine = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            match engine.recording(&name).await {
+                Some(file) => engine.hand(Answer::File(name), Some(file.into())),
+                None => engine.fault("This recording is not there any more."),
+            }
+        });
+    }
+
+    /// Begins a recording.
+    pub(super) fn begin_recording(&self) {
         let wanted = name();
         {
             let mut state = self.state.borrow_mut();
@@ -218,7 +200,7 @@ impl Engine {
         });
     }
 
-    fn copy(&self, handle: FileSystemFileHandle) {
+    pub(super) fn copy(&self, handle: FileSystemFileHandle) {
         let (copy, name, size) = {
             let mut state = self.state.borrow_mut();
             let Some(running) = &mut state.recorder.running else {
@@ -257,7 +239,7 @@ impl Engine {
     }
 
     /// Changes what is kept, and says what is there then.
-    fn change(&self, change: impl Future<Output = Result<(), JsValue>> + 'static) {
+    pub(super) fn change(&self, change: impl Future<Output = Result<(), JsValue>> + 'static) {
         let engine = self.clone();
         wasm_bindgen_futures::spawn_local(async move {
             // What is not there any more needs no change.
@@ -266,7 +248,7 @@ impl Engine {
         });
     }
 
-    fn list(&self) {
+    pub(super) fn list(&self) {
         let engine = self.clone();
         wasm_bindgen_futures::spawn_local(async move {
             // Where nothing is kept, there is what is in memory.
@@ -283,18 +265,18 @@ impl Engine {
                 });
                 all.splice(0..0, in_memory);
             }
-            engine.hand(FromRecorder::List(all), None);
+            engine.hand(Answer::Recordings(all), None);
         });
     }
 
     /// A support file: what was said of late, with a text in front.
-    fn report(&self, text: &str) {
+    pub(super) fn report(&self, text: &str) {
         let mut state = self.state.borrow_mut();
         let (file, _) = state.tally.transcript().late(now(), text);
         drop(state);
         let blob = blob_of(&Array::of1(&Uint8Array::from(&file[..])));
         let name = name().replace(".pcapng", "-report.pcapng");
-        self.hand(FromRecorder::File(name), blob.map(Into::into));
+        self.hand(Answer::File(name), blob.map(Into::into));
     }
 }
 
@@ -379,12 +361,12 @@ impl State {
         if state != self.recorder.told {
             self.recorder.next_tell = now + TELL;
             self.recorder.told = state.clone();
-            (self.hand)(FromRecorder::State(state), None);
+            (self.hand)(Answer::Recorder(state), None);
         }
         None
     }
 
-    fn story(&mut self) -> Story {
+    pub(super) fn story(&mut self) -> Story {
         let happenings = self.tally.happenings();
         let happenings = happenings
             .map(|(at, text)| (at as f64 / 1e3, text.to_owned()))

@@ -7,7 +7,7 @@ mod player;
 use super::{Engine, Order, State};
 use crate::{
     browser::now,
-    message::{FromRecorder, Link, Replay, Snapshot},
+    message::{Answer, Link, Replay, Snapshot},
     store,
 };
 use encoderscope::session::Micros;
@@ -121,7 +121,7 @@ impl Engine {
                 player.set_speed(0.0, now());
             }
         }
-        self.hand(FromRecorder::Report(text), None);
+        self.hand(Answer::Report(text), None);
     }
 }
 
@@ -165,7 +165,7 @@ impl State {
         }
         let hungry = player.is_hungry();
         if let Some(fault) = fault {
-            (self.hand)(FromRecorder::Fault(format!("{fault}.")), None);
+            (self.hand)(Answer::Fault(format!("{fault}.")), None);
         }
         hungry
     }

@@ -1,66 +1,8 @@
-//! What the page and the engine say to each other of recordings. Only parts of the page that come
-//! when they are wanted know these messages, which come as arrays, with a file beside them.
+//! Recordings, as the page shows them.
 
 use super::{Counts, Snapshot};
 use crate::plot::Trace;
 use serde::{Deserialize, Serialize};
-
-/// From the page to the engine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum ToRecorder {
-    /// Record from now on.
-    Record,
-    /// Write the recording into the file beside this, too.
-    Copy,
-    /// Leave a note in the recording.
-    Mark(String),
-    /// End the recording.
-    Stop,
-    /// Which recordings are there.
-    List,
-    /// Give a recording that was cut off its end.
-    Settle(String),
-    /// Let a recording go.
-    Delete(String),
-    /// Hand out a recording.
-    Fetch(String),
-    /// Replay a recording, or the file beside this.
-    Replay {
-        /// Its name.
-        name: String,
-        /// The profile, as the parameters of a link, where the recording has none.
-        profile: String,
-    },
-    /// Go on at this speed: 1 is as it was, 0 holds.
-    Play(f64),
-    /// Go on at this part of the recording, 0…1.
-    Seek(f64),
-    /// Read two recordings to their end, and say what each comes to.
-    Compare([String; 2]),
-    /// What happened of late.
-    Story,
-    /// Make a support file, with this in front.
-    Report(String),
-}
-
-/// From the engine to the page.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum FromRecorder {
-    /// What runs.
-    State(RecorderState),
-    /// The recordings that are there, newest first.
-    List(Vec<Kept>),
-    /// The file beside this is to be saved under a name.
-    File(String),
-    /// Something could not be done.
-    Fault(String),
-    /// What happened of late, newest last.
-    Story(Story),
-    /// A support file was opened: what stands in front of it.
-    Report(String),
-    /// What two recordings come to.
-    Comparison(Box<[Digest; 2]>),
-}
 
 /// What runs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -17,7 +17,7 @@ use encoderscope_web::{
     browser::{Peer, property},
     desk::Desk,
     engine::Engine,
-    message::{FromDesk, FromEngine, FromRecorder, ToDesk, ToEngine, ToRecorder},
+    message::{Answer, FromDesk, FromEngine, ToDesk, ToEngine, Wish},
     serial,
 };
 use js_sys::{Array, Object, Uint8Array};
@@ -232,8 +232,8 @@ pub fn serve(page: &Peer) {
         serial: serial::available().is_ok(),
     });
     let out = page.clone();
-    // What is about recordings is an array, with a file beside it.
-    let hand = move |message: FromRecorder, file: Option<JsValue>| {
+    // Answers to wishes are arrays, with a file beside them.
+    let hand = move |message: Answer, file: Option<JsValue>| {
         if let Ok(message) = serde_wasm_bindgen::to_value(&message) {
             let both = Array::of2(&message, &file.unwrap_or_default());
             // The page is gone when this fails.
@@ -244,8 +244,8 @@ pub fn serve(page: &Peer) {
     let listen = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
         if let Some(both) = event.data().dyn_ref::<Array>() {
             let file = Some(both.get(1)).filter(JsValue::is_object);
-            if let Ok(message) = serde_wasm_bindgen::from_value::<ToRecorder>(both.get(0)) {
-                engine.record(message, file);
+            if let Ok(message) = serde_wasm_bindgen::from_value::<Wish>(both.get(0)) {
+                engine.grant(message, file);
             }
         } else if let Ok(message) = serde_wasm_bindgen::from_value::<ToEngine>(event.data()) {
             engine.handle(message);

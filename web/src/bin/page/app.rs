@@ -12,7 +12,7 @@ use crate::{
 use encoderscope::{format::Format, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
-    message::{PortId, Snapshot, ToEngine},
+    message::{PortId, Snapshot, ToEngine, Wish},
     serial,
 };
 use js_sys::Array;
@@ -168,13 +168,21 @@ impl App {
             .with_value(|connection| connection.send(message));
     }
 
-    /// Sends the engine what most of the page knows nothing of.
-    pub(crate) fn post(&self, message: JsValue) {
-        self.connection
-            .with_value(|connection| connection.post(message));
+    /// Tells the engine what a part of the page wishes.
+    pub(crate) fn wish(&self, wish: &Wish) {
+        self.wish_with(wish, &JsValue::UNDEFINED);
     }
 
-    /// Hears what the engine says of recordings.
+    /// The same with a file.
+    pub(crate) fn wish_with(&self, wish: &Wish, file: &JsValue) {
+        if let Ok(wish) = serde_wasm_bindgen::to_value(wish) {
+            let both = Array::of2(&wish, file);
+            self.connection
+                .with_value(|connection| connection.post(both.into()));
+        }
+    }
+
+    /// Hears the answers to wishes.
     pub(crate) fn hear(&self, heard: impl Fn(Array) + 'static) {
         self.connection
             .with_value(|connection| connection.hear(heard));
@@ -210,7 +218,7 @@ impl App {
     /// Asks so many times a second.
     pub(crate) fn set_pace(self, rate: f64) {
         self.pace.set(rate);
-        self.send(&ToEngine::Pace(rate));
+        self.wish(&Wish::Pace(rate));
     }
 
     /// Stops reading.

@@ -23,7 +23,7 @@ pub(crate) struct Connection {
     parcels: Rc<RefCell<Parcels>>,
 }
 
-/// What the engine says of recordings: most of the page knows nothing of them.
+/// Answers to wishes, which the first view does not know.
 #[derive(Default)]
 struct Parcels {
     heard: Option<Box<dyn Fn(Array)>>,
@@ -110,8 +110,6 @@ impl Connection {
                 self.run_here();
             }
             FromEngine::Hello { .. } => self.ready(),
-            FromEngine::Plot(plot) => self.feed.plot.set(*plot),
-            FromEngine::Rest(rest) => self.feed.rest.set(rest.map(|rest| *rest)),
             FromEngine::Reading(reading) => {
                 self.show(Some(reading));
                 self.want_next();
@@ -194,7 +192,7 @@ impl Connection {
         }
     }
 
-    /// Hears what the engine says of recordings, and has said of them.
+    /// Hears answers to wishes, and those that have come.
     pub(crate) fn hear(&self, heard: impl Fn(Array) + 'static) {
         let waiting = std::mem::take(&mut self.parcels.borrow_mut().waiting);
         for parcel in waiting {

@@ -10,7 +10,7 @@ use crate::{
     parts::{self, coming, later},
     plot::PlotPanel,
     ports::Obstacle,
-    recordings::RecordingsPanel,
+    recordings::{Recordings, RecordingsPanel},
     setting::SettingPanel,
     standstill::Standstill,
     zero_wire::ZeroWire,
@@ -51,6 +51,8 @@ fn Preview() -> impl IntoView {
 #[component]
 pub(crate) fn Live() -> impl IntoView {
     let app = expect_context::<App>();
+    // From now on answers are heard.
+    Recordings::of(app);
     // A recording cannot be changed.
     let lives = Memo::new(move |_| app.source.get() != Source::Replay);
     view! {

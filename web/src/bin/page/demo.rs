@@ -5,7 +5,7 @@ use encoderscope::{
     bits,
     format::{Format, STATUS},
 };
-use encoderscope_web::message::{Knobs, ToEngine};
+use encoderscope_web::message::{Knobs, Wish};
 use leptos::prelude::*;
 
 #[component]
@@ -27,7 +27,7 @@ fn DemoShaft() -> impl IntoView {
     let speed = RwSignal::new(None::<f64>);
     let turn = move |value: f64| {
         speed.set(Some(value));
-        app.send(&ToEngine::Turn(value));
+        app.wish(&Wish::Turn(value));
     };
     let text = move || match speed.get() {
         None => "swinging".to_owned(),
@@ -56,7 +56,7 @@ fn Reports(app: App) -> impl IntoView {
     let knobs = RwSignal::new(Knobs::default());
     let set = move |change: &dyn Fn(&mut Knobs)| {
         knobs.update(|knobs| change(knobs));
-        app.send(&ToEngine::Knobs(knobs.get_untracked()));
+        app.wish(&Wish::Knobs(knobs.get_untracked()));
     };
     // A profile that changes makes another encoder, which is well.
     Effect::new(move || {

@@ -2,7 +2,7 @@
 
 use crate::app::App;
 use encoderscope::{explain::grouped, format::Format};
-use encoderscope_web::message::{Device, Link, Snapshot, ToEngine};
+use encoderscope_web::message::{Device, Link, Snapshot, Wish};
 use leptos::prelude::*;
 
 #[component]
@@ -28,7 +28,7 @@ pub(crate) fn DevicesPanel() -> impl IntoView {
                 <section class="panel devices">
                     <h2>"Devices on the bus"</h2>
                     <div class="doors">
-                        <button data-testid="scan" disabled=move || !open.get() || busy.get() on:click=move |_| app.send(&ToEngine::Scan)>
+                        <button data-testid="scan" disabled=move || !open.get() || busy.get() on:click=move |_| app.wish(&Wish::Scan)>
                             "Scan 32 addresses"
                         </button>
                         <span class="hint" data-testid="scan-result">{move || scan.get()}</span>
@@ -88,7 +88,7 @@ fn Tile(address: u8) -> impl IntoView {
             data-address=address.to_string()
             data-value=angle
             data-fresh=move || device.get().is_some_and(|device| device.fresh).to_string()
-            on:click=move |_| app.send(&ToEngine::Watch(address))
+            on:click=move |_| app.wish(&Wish::Watch(address))
         >
             <span class="address">"address " {address.to_string()}</span>
             <b>{text}</b>

@@ -3,7 +3,7 @@
 
 use crate::app::App;
 use encoderscope::format::t485::MEMORY_SIZE;
-use encoderscope_web::message::{Link, Setting, ToEngine};
+use encoderscope_web::message::{Link, Setting, Wish};
 use leptos::prelude::*;
 
 /// A number as people write it: decimal, or hexadecimal behind 0x.
@@ -46,7 +46,7 @@ pub(crate) fn Eeprom(chosen: RwSignal<Option<Setting>>) -> impl IntoView {
     };
     let read = move |_| {
         if let Some(address) = address.get_untracked() {
-            app.send(&ToEngine::ReadMemory(address));
+            app.wish(&Wish::ReadMemory(address));
         }
     };
     let answer = move || match (asked(), held()) {

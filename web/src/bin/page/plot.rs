@@ -7,7 +7,7 @@ pub(crate) use chart::{Canvas, Chart};
 use crate::app::App;
 use chart::{ChartView, Height, text, value_at};
 use encoderscope_web::{
-    message::{Shown, ToEngine},
+    message::{Shown, Wish},
     plot::{Plot, PlotRequest, Quantity, Rest, Stretch},
 };
 use leptos::prelude::*;
@@ -276,7 +276,7 @@ fn ask(view: View) {
     let request = Memo::new(move |_| view.request());
     let waited = StoredValue::new(0u32);
     let ticks = StoredValue::new(0u32);
-    Effect::new(move || app.send(&ToEngine::Plot(request.get())));
+    Effect::new(move || app.wish(&Wish::Plot(request.get())));
     Effect::new(move || {
         view.feed.plot.track();
         waited.set_value(0);
@@ -284,7 +284,7 @@ fn ask(view: View) {
     let tick = move || {
         ticks.update_value(|ticks| *ticks = ticks.wrapping_add(1));
         if ticks.get_value().is_multiple_of(ASK_REST) {
-            app.send(&ToEngine::Rest);
+            app.wish(&Wish::Rest);
         }
         if view.held.get_untracked().is_some() {
             return;
@@ -292,7 +292,7 @@ fn ask(view: View) {
         match waited.get_value() {
             0 => {
                 waited.set_value(PATIENCE);
-                app.send(&ToEngine::Plot(request.get_untracked()));
+                app.wish(&Wish::Plot(request.get_untracked()));
             }
             left => waited.set_value(left - 1),
         }

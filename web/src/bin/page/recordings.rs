@@ -18,7 +18,7 @@ use crate::{
 };
 use encoderscope_web::{
     link::{profile, query},
-    message::{Digest, FromRecorder, Kept, RecorderState, Story, ToRecorder},
+    message::{Answer, Digest, Kept, RecorderState, Story, Wish},
 };
 use js_sys::Array;
 use leptos::prelude::*;
@@ -54,48 +54,51 @@ impl Recordings {
                 comparison: RwSignal::new(None),
             };
             app.hear(move |parcel| made.receive(&parcel));
-            made.send(&ToRecorder::List);
+            made.send(&Wish::Recordings);
             made
         })
     }
 
-    fn send(self, message: &ToRecorder) {
-        self.post(message, &JsValue::UNDEFINED);
+    fn send(self, wish: &Wish) {
+        self.post(wish, &JsValue::UNDEFINED);
     }
 
-    /// Sends a message with a file beside it.
-    fn post(self, message: &ToRecorder, file: &JsValue) {
+    /// Wishes something with a file beside it.
+    fn post(self, wish: &Wish, file: &JsValue) {
         self.fault.set(None);
-        if let Ok(message) = serde_wasm_bindgen::to_value(message) {
-            self.app.post(Array::of2(&message, file).into());
-        }
+        self.app.wish_with(wish, file);
     }
 
     fn receive(self, parcel: &Array) {
-        let Ok(message) = serde_wasm_bindgen::from_value::<FromRecorder>(parcel.get(0)) else {
+        let Ok(message) = serde_wasm_bindgen::from_value::<Answer>(parcel.get(0)) else {
             return;
         };
         match message {
-            FromRecorder::State(state) => {
+            Answer::Plot(plot) => self.app.feed.plot.set(*plot),
+            Answer::Rest(rest) => self.app.feed.rest.set(rest.map(|rest| *rest)),
+            Answer::Recorder(state) => {
                 let replayed = state.replay.as_ref().map(|replay| replay.profile.clone());
-                let records = state.recording.as_ref().is_some_and(|one| one.runs);
-                self.app.recording.set(records);
+                let runs = state.recording.as_ref().is_some_and(|one| one.runs);
+                if self.app.recording.get_untracked() != runs {
+                    self.app.recording.set(runs);
+                }
                 self.state.set(state);
                 match replayed {
                     Some(text) => self.follow(&text),
-                    None => self.opened.set(None),
+                    None if self.opened.with_untracked(Option::is_some) => self.opened.set(None),
+                    None => {}
                 }
             }
-            FromRecorder::List(list) => self.list.set(list),
-            FromRecorder::File(name) => {
+            Answer::Recordings(list) => self.list.set(list),
+            Answer::File(name) => {
                 if let Ok(file) = parcel.get(1).dyn_into::<Blob>() {
                     save(&file, &name);
                 }
             }
-            FromRecorder::Fault(text) => self.fault.set(Some(text)),
-            FromRecorder::Story(story) => self.story.set(Some(story)),
-            FromRecorder::Report(text) => self.opened.set(Some(Report::parse(&text))),
-            FromRecorder::Comparison(both) => self.comparison.set(Some(both)),
+            Answer::Fault(text) => self.fault.set(Some(text)),
+            Answer::Story(story) => self.story.set(Some(story)),
+            Answer::Report(text) => self.opened.set(Some(Report::parse(&text))),
+            Answer::Comparison(both) => self.comparison.set(Some(both)),
         }
     }
 
@@ -128,7 +131,7 @@ impl Recordings {
         app.obstacle.set(None);
         app.source.set(Source::Replay);
         let profile = query(&app.readable());
-        self.post(&ToRecorder::Replay { name, profile }, file);
+        self.post(&Wish::Replay { name, profile }, file);
     }
 }
 

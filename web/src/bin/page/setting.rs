@@ -5,7 +5,7 @@ use crate::{
     eeprom::{Eeprom, byte_text},
 };
 use encoderscope::{format::Format, profile::Profile, sequence::Change};
-use encoderscope_web::message::{Link, Progress, STILL, Setting, Shown, Snapshot, ToEngine};
+use encoderscope_web::message::{Link, Progress, STILL, Setting, Shown, Snapshot, Wish};
 use leptos::prelude::*;
 
 /// What can be set with a profile.
@@ -166,7 +166,7 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
             (setting, _) => setting,
         };
         chosen.set(None);
-        app.send(&ToEngine::Set(setting));
+        app.wish(&Wish::Set(setting));
     };
     view! {
         <p><b>{title(setting)}</b> ". " {meaning(setting)}</p>
@@ -231,7 +231,7 @@ fn Running(setting: Setting, progress: Memo<Option<Progress>>) -> impl IntoView 
         <progress max=total value=done aria-label="commands done"></progress>
         {move || count.get().map(counted)}
         <div class="doors">
-            <button on:click=move |_| app.send(&ToEngine::StopSetting)>"Stop"</button>
+            <button on:click=move |_| app.wish(&Wish::StopSetting)>"Stop"</button>
         </div>
     }
 }
@@ -258,7 +258,7 @@ fn Ended(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoView
         ..
     } = progress;
     let again = move |_| {
-        app.send(&ToEngine::ForgetSetting);
+        app.wish(&Wish::ForgetSetting);
         chosen.set(None);
     };
     outcome.map(|outcome| {

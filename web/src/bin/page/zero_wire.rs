@@ -5,7 +5,7 @@ use crate::app::{App, Source};
 use encoderscope::{format::Format, procedure::HOLD, session::Micros};
 use encoderscope_web::{
     browser::now,
-    message::{Link, Shown, Snapshot, Supply, ToEngine},
+    message::{Link, Shown, Snapshot, Supply, Wish},
 };
 use leptos::prelude::*;
 
@@ -313,7 +313,7 @@ fn DemoSupply() -> impl IntoView {
     ];
     let buttons = switches.map(|(supply, testid, text)| {
         view! {
-            <button class="quiet" data-testid=testid on:click=move |_| app.send(&ToEngine::Supply(supply))>{text}</button>
+            <button class="quiet" data-testid=testid on:click=move |_| app.wish(&Wish::Supply(supply))>{text}</button>
         }
     });
     view! { <div class="doors">{buttons.collect_view()}</div> }

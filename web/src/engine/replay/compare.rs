@@ -4,7 +4,7 @@ use super::{Player, Stage, TURN};
 use crate::{
     browser::{now, pause},
     engine::Engine,
-    message::{Digest, FromRecorder, Link},
+    message::{Answer, Digest, Link},
     plot::{PlotRequest, Quantity, Stretch},
     store,
     tally::Tally,
@@ -24,7 +24,7 @@ impl Engine {
             match made {
                 (Some(one), Some(other)) => {
                     let both = Box::new([one, other]);
-                    engine.hand(FromRecorder::Comparison(both), None);
+                    engine.hand(Answer::Comparison(both), None);
                 }
                 _ => engine.fault("One of them cannot be read."),
             }

@@ -2,7 +2,7 @@
 
 use crate::app::App;
 use encoderscope::{dump, format::Medium, sequence::danger};
-use encoderscope_web::message::{Link, ToEngine};
+use encoderscope_web::message::{Link, Wish};
 use leptos::prelude::*;
 
 /// Most bytes that are sent by hand at once.
@@ -60,7 +60,7 @@ pub(crate) fn ByHand(sent: Callback<()>) -> impl IntoView {
                 Some(danger) => question.set(Some((bytes, danger.to_string()))),
                 None => {
                     sent.run(());
-                    app.send(&ToEngine::Send {
+                    app.wish(&Wish::Send {
                         bytes,
                         confirmed: false,
                     });
@@ -71,7 +71,7 @@ pub(crate) fn ByHand(sent: Callback<()>) -> impl IntoView {
     let confirm = move |bytes: Vec<u8>| {
         question.set(None);
         sent.run(());
-        app.send(&ToEngine::Send {
+        app.wish(&Wish::Send {
             bytes,
             confirmed: true,
         });

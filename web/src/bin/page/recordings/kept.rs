@@ -7,7 +7,7 @@ use super::{
     size_text, time_text,
 };
 use crate::app::App;
-use encoderscope_web::message::{Kept, ToRecorder};
+use encoderscope_web::message::{Kept, Wish};
 use leptos::{html, prelude::*};
 
 #[component]
@@ -19,7 +19,7 @@ pub(crate) fn RecordingsPanel() -> impl IntoView {
     let compare = move |_| {
         if let [one, other] = &chosen.get_untracked()[..] {
             recordings.comparison.set(None);
-            recordings.send(&ToRecorder::Compare([one.clone(), other.clone()]));
+            recordings.send(&Wish::Compare([one.clone(), other.clone()]));
         }
     };
     view! {
@@ -110,13 +110,13 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
             <td class="number">{size_text(kept.size)}</td>
             <td class="doors">
                 <button data-testid="replay" disabled=kept.runs on:click=move |_| recordings.replay(name())>"Replay"</button>
-                <button data-testid="save" on:click=move |_| recordings.send(&ToRecorder::Fetch(name()))>"Save"</button>
+                <button data-testid="save" on:click=move |_| recordings.send(&Wish::Fetch(name()))>"Save"</button>
                 {move || match asked.get() {
                     false => view! {
                         <button class="quiet" data-testid="delete" disabled=kept.runs on:click=move |_| asked.set(true)>"Delete…"</button>
                     }.into_any(),
                     true => view! {
-                        <button data-testid="delete-confirm" on:click=move |_| recordings.send(&ToRecorder::Delete(name()))>
+                        <button data-testid="delete-confirm" on:click=move |_| recordings.send(&Wish::Delete(name()))>
                             "Delete for good"
                         </button>
                         <button class="quiet" on:click=move |_| asked.set(false)>"Keep"</button>

@@ -4,7 +4,7 @@ use super::{Recordings, clock_text, size_text};
 use crate::app::{App, Source};
 use encoderscope_web::{
     browser::property,
-    message::{Place, Recording, ToRecorder},
+    message::{Place, Recording, Wish},
 };
 use js_sys::{Function, Object, Promise, Reflect};
 use leptos::prelude::*;
@@ -20,14 +20,14 @@ pub(crate) fn RecordButton() -> impl IntoView {
     let recording = Memo::new(move |_| recordings.state.with(|state| state.recording.clone()));
     let runs = app.recording;
     let press = move |_| match runs.get_untracked() {
-        true => recordings.send(&ToRecorder::Stop),
+        true => recordings.send(&Wish::StopRecording),
         false => {
             // A browser that is asked keeps recordings when it runs out of room for other sites.
             if let Ok(storage) = property(&window().navigator(), "storage").dyn_into() {
                 let storage: StorageManager = storage;
                 let _ = storage.persist();
             }
-            recordings.send(&ToRecorder::Record);
+            recordings.send(&Wish::Record);
         }
     };
     let may = move || runs.get() || app.source.get() != Source::Replay;
@@ -95,7 +95,7 @@ fn Notes(recordings: Recordings) -> impl IntoView {
         };
         count.update(|count| *count += 1);
         note.set(String::new());
-        recordings.send(&ToRecorder::Mark(text));
+        recordings.send(&Wish::Mark(text));
     };
     let can_copy = property(&window(), "showSaveFilePicker").is_function();
     view! {
@@ -143,6 +143,6 @@ async fn copy(recordings: Recordings) {
     if let Ok(asked) = ask.call1(&window(), &options)
         && let Ok(handle) = JsFuture::from(asked.unchecked_into::<Promise>()).await
     {
-        recordings.post(&ToRecorder::Copy, &handle);
+        recordings.post(&Wish::Copy, &handle);
     }
 }

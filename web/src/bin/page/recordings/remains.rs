@@ -2,7 +2,7 @@
 
 use super::{Recordings, size_text, time_text};
 use crate::app::App;
-use encoderscope_web::message::{Kept, ToRecorder};
+use encoderscope_web::message::{Kept, Wish};
 use leptos::prelude::*;
 
 #[component]
@@ -23,7 +23,7 @@ pub(crate) fn Remains() -> impl IntoView {
 #[component]
 fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
     let name = StoredValue::new(kept.name.clone());
-    let settle = move || recordings.send(&ToRecorder::Settle(name.get_value()));
+    let settle = move || recordings.send(&Wish::Settle(name.get_value()));
     view! {
         <section class="panel remains" role="status" data-testid="remains" data-name=kept.name.clone()>
             <h2>"A recording was cut off"</h2>
@@ -50,13 +50,13 @@ fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
                     data-testid="remains-save"
                     on:click=move |_| {
                         settle();
-                        recordings.send(&ToRecorder::Fetch(name.get_value()));
+                        recordings.send(&Wish::Fetch(name.get_value()));
                     }
                 >
                     "Save it"
                 </button>
                 <button data-testid="remains-keep" on:click=move |_| settle()>"Keep it"</button>
-                <button class="quiet" on:click=move |_| recordings.send(&ToRecorder::Delete(name.get_value()))>
+                <button class="quiet" on:click=move |_| recordings.send(&Wish::Delete(name.get_value()))>
                     "Delete it"
                 </button>
             </div>

@@ -2,7 +2,7 @@
 
 use super::{Recordings, size_text, time_text};
 use crate::app::{App, Source};
-use encoderscope_web::message::{Replay, ToRecorder};
+use encoderscope_web::message::{Replay, Wish};
 use leptos::prelude::*;
 
 /// How fast a recording may be replayed, and how that is called.
@@ -52,11 +52,11 @@ pub(crate) fn ReplayBar() -> impl IntoView {
     });
     let press = move |_| match (ended(), now.get_untracked() > 0.0) {
         (true, _) => {
-            recordings.send(&ToRecorder::Seek(0.0));
-            recordings.send(&ToRecorder::Play(speed.get_untracked()));
+            recordings.send(&Wish::Seek(0.0));
+            recordings.send(&Wish::Play(speed.get_untracked()));
         }
-        (false, true) => recordings.send(&ToRecorder::Play(0.0)),
-        (false, false) => recordings.send(&ToRecorder::Play(speed.get_untracked())),
+        (false, true) => recordings.send(&Wish::Play(0.0)),
+        (false, false) => recordings.send(&Wish::Play(speed.get_untracked())),
     };
     let replays = move || app.source.get() == Source::Replay && exists.get();
     view! {
@@ -80,7 +80,7 @@ pub(crate) fn ReplayBar() -> impl IntoView {
                                 if let Some((wanted, _)) = SPEEDS.get(index) {
                                     speed.set(*wanted);
                                     if now.get_untracked() > 0.0 {
-                                        recordings.send(&ToRecorder::Play(*wanted));
+                                        recordings.send(&Wish::Play(*wanted));
                                     }
                                 }
                             }
@@ -102,7 +102,7 @@ pub(crate) fn ReplayBar() -> impl IntoView {
                         prop:value=move || (part.get() * STEPS).round().to_string()
                         on:change:target=move |event| {
                             let place: f64 = event.target().value().parse().unwrap_or(0.0);
-                            recordings.send(&ToRecorder::Seek(place / STEPS));
+                            recordings.send(&Wish::Seek(place / STEPS));
                         }
                     />
                 </label>

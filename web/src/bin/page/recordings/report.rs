@@ -9,7 +9,7 @@ use crate::{
 use encoderscope_web::{
     browser::{property, system},
     link::query,
-    message::{Snapshot, Story, ToRecorder},
+    message::{Snapshot, Story, Wish},
     serial,
 };
 use js_sys::{Array, JSON};
@@ -125,7 +125,7 @@ pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
     });
     let open = move |_| {
         recordings.story.set(None);
-        recordings.send(&ToRecorder::Story);
+        recordings.send(&Wish::Story);
         wanted.set(true);
     };
     view! {
@@ -152,7 +152,7 @@ pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
                         data-testid="report-save"
                         on:click=move |_| {
                             if let Some(report) = report.get_untracked() {
-                                recordings.send(&ToRecorder::Report(report.text()));
+                                recordings.send(&Wish::Report(report.text()));
                             }
                         }
                     >
