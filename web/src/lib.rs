@@ -9,8 +9,9 @@
 pub mod browser;
 pub mod desk;
 pub mod engine;
-pub mod link;
 pub mod message;
 pub mod plot;
 pub mod serial;
 pub mod tally;
+
+pub use encoderscope::link;
