@@ -57,8 +57,9 @@ pub(crate) struct Glimpse {
 }
 
 impl Resolved {
-    /// The same layout, prepared to judge and read many frames quickly; text, repeated words
-    /// and frames that are longer than sixteen bytes stay as they are.
+    /// The same layout, prepared to judge and read many frames quickly; text, repeated words,
+    /// frames that are longer than sixteen bytes and those with several flags of an error stay as
+    /// they are.
     #[must_use]
     pub fn sieved(mut self) -> Self {
         // Where size counts, few frames are read.
@@ -75,7 +76,10 @@ impl Resolved {
             .filter(|field| Field::is_binding(field))
             .map(|field| field.width)
             .sum();
-        if !plain || self.len > 16 * WORD || checks > u16::BITS {
+        let count = |of: fn(Role) -> bool| self.fields().filter(|field| of(field.row.role)).count();
+        let single = count(|role| matches!(role, Role::Error | Role::Valid)) < 2
+            && count(|role| role == Role::Warning) < 2;
+        if !plain || !single || self.len > 16 * WORD || checks > u16::BITS {
             return self;
         }
         let signed = self.shape.profile.turns_code == TurnsCode::Signed;
