@@ -58,8 +58,8 @@ pub(crate) struct Glimpse {
 
 impl Resolved {
     /// The same layout, prepared to judge and read many frames quickly; text, repeated words,
-    /// frames that are longer than sixteen bytes and those with several flags of an error stay as
-    /// they are.
+    /// coded bits with one value, frames that are longer than sixteen bytes and those with several
+    /// or coded flags of an error stay as they are.
     #[must_use]
     pub fn sieved(mut self) -> Self {
         // Where size counts, few frames are read.
@@ -69,17 +69,26 @@ impl Resolved {
         let plain = self.fields().all(|field| {
             let once = field.row.role != Role::Repeat;
             let coding = self.coding(field).map(|(coding, _)| coding);
-            once && field.width <= u64::BITS && coding != Some(Coding::Decimal)
+            let fixed = field.row.constant.is_some() || field.row.zeros != 0;
+            let read = match coding {
+                Some(Coding::Gray) => !fixed,
+                other => other.is_none(),
+            };
+            once && field.width <= u64::BITS && read
         });
         let checks: u32 = self
             .fields()
             .filter(|field| Field::is_binding(field))
             .map(|field| field.width)
             .sum();
-        let count = |of: fn(Role) -> bool| self.fields().filter(|field| of(field.row.role)).count();
-        let single = count(|role| matches!(role, Role::Error | Role::Valid)) < 2
-            && count(|role| role == Role::Warning) < 2;
-        if !plain || !single || self.len > 16 * WORD || checks > u16::BITS {
+        let single = |of: fn(Role) -> bool| {
+            let mut flags = self.fields().filter(|field| of(field.row.role));
+            let plain = |flag: &Field| self.coding(flag).is_none();
+            flags.next().is_none_or(plain) && flags.next().is_none()
+        };
+        let flags = single(|role| matches!(role, Role::Error | Role::Valid))
+            && single(|role| role == Role::Warning);
+        if !plain || !flags || self.len > 16 * WORD || checks > u16::BITS {
             return self;
         }
         let signed = self.shape.profile.turns_code == TurnsCode::Signed;

@@ -24,10 +24,6 @@ pub(super) fn judge(written: &Written, names: &[String]) -> Result<(), String> {
         return Err(format!("{total} bits are more than {LONGEST}"));
     }
     for kind in [Kind::Angle, Kind::Turns] {
-        let (bits, (_, most)) = (sum(kind), kind.widths());
-        if bits > most {
-            return Err(format!("{bits} bits of {} exceed {most}", kind.name()));
-        }
         let mut called = fields
             .iter()
             .zip(names)
@@ -56,13 +52,23 @@ pub(super) fn judge(written: &Written, names: &[String]) -> Result<(), String> {
         ));
     }
     let same = |one: &Draft, other: &Draft| {
-        one.kind == other.kind && !matches!(one.kind, Kind::Crc | Kind::Even | Kind::Odd)
+        one.kind == other.kind
+            && !matches!(one.kind, Kind::Crc | Kind::Even | Kind::Odd | Kind::Const)
     };
     for (index, (field, name)) in fields.iter().zip(names).enumerate() {
         let earlier = fields.iter().zip(names).take(index);
         let mut mine = earlier.filter(|(_, known)| *known == name);
         if mine.any(|(other, _)| !same(field, other)) {
             return Err(format!("two fields are called {name}"));
+        }
+        let parts = fields.iter().zip(names).filter(|(_, known)| *known == name);
+        let bits: u32 = parts.map(|(part, _)| part.width).sum();
+        let (_, most) = field.kind.widths();
+        if bits > most {
+            return Err(format!(
+                "{bits} bits of {} exceed {most}",
+                field.kind.name()
+            ));
         }
         judge_check(written, names, index)?;
     }
@@ -106,12 +112,10 @@ fn judge_gray(fields: &[Draft], names: &[String]) -> Result<(), String> {
     if gray.map(|field| field.width).sum::<u32>() > 64 {
         return Err("a gray word has at most 64 bits".to_string());
     }
-    let mut known: Vec<&String> = Vec::new();
-    for (_, name) in fields.iter().zip(names).filter(|(field, _)| field.gray) {
-        if known.contains(&name) {
-            return Err(format!("{name} has several parts in a gray word"));
-        }
-        known.push(name);
+    let parts = |name: &String| names.iter().filter(|known| *known == name).count();
+    let mut words = fields.iter().zip(names).filter(|(field, _)| field.gray);
+    if let Some((_, name)) = words.find(|(_, name)| parts(name) > 1) {
+        return Err(format!("{name} is gray and comes in several parts"));
     }
     Ok(())
 }
