@@ -4,7 +4,7 @@ use encoderscope::{
     decode::Decoder,
     format::{
         Format,
-        own::{self, Draft, Own, Written},
+        own::{self, Draft, Kind, Own, Written},
     },
     layout::{Active, Class, Field, Resolved, Role},
     profile::{Profile, TurnsCode},
@@ -128,21 +128,21 @@ fn drafted(input: &mut Input<'_>) -> String {
     let mut text = format!("Drafted;{};", input.one_of(&framing));
     let count = input.within(1, 12);
     for index in 0..count {
-        let kind = input.one_of(own::Kind::ALL);
+        let kind = input.one_of(Kind::ALL);
         let (least, most) = kind.widths();
         let width = input.within(least, most.min(40));
         let options = input.byte();
         let comma = if index > 0 { "," } else { "" };
         let _ = write!(text, "{comma}{}:{width}", kind.name());
         let mask = bits::mask(width as usize);
-        if kind == own::Kind::Crc {
+        if kind == Kind::Crc {
             let (polynomial, init) = (input.long() & mask | 1, input.long() & mask);
             let _ = write!(text, ":0x{polynomial:x}:xor=0x{:x}", input.long() & mask);
             if options & 1 == 1 {
                 let _ = write!(text, ":reflected:init=0x{init:x}");
             }
         }
-        if kind == own::Kind::Const {
+        if kind == Kind::Const {
             let _ = write!(text, ":0x{:x}", input.long() & mask);
         }
         for (place, said) in [(2, ":low"), (3, ":gray"), (4, ":le")] {
@@ -239,12 +239,19 @@ fn numbers(decoder: &Decoder, input: &mut Input<'_>) {
     assert!(layout.holds(frame), "{:?}", layout.faults(frame));
     let read = layout.values(frame);
     assert_eq!(read.angle, values.angle, "{:?}", profile.own);
-    assert_eq!(layout.encode(&read).as_bits(), frame, "{:?}", profile.own);
+    // Of two counts of different widths only one is read.
+    let fields = profile.own.map_or(&[][..], |own| &own.written().fields);
+    let twice = |kind: &Kind| fields.iter().filter(|field| field.kind == *kind).count() > 1;
+    if !Kind::ALL.iter().any(twice) {
+        assert_eq!(layout.encode(&read).as_bits(), frame, "{:?}", profile.own);
+    }
     if profile.turns_code == TurnsCode::Unsigned && profile.turns_bits > 0 {
         let most = bits::mask(profile.turns_bits as usize);
         assert_eq!(
             read.turns,
-            Some((u64::from(values.turns.unwrap_or(0) as u16) & most) as i64)
+            Some((u64::from(values.turns.unwrap_or(0) as u16) & most) as i64),
+            "{:?}",
+            profile.own
         );
     }
     let reading = layout
@@ -252,7 +259,7 @@ fn numbers(decoder: &Decoder, input: &mut Input<'_>) {
         .expect("a good frame")
         .expect("an angle");
     assert_eq!(Some(reading.angle), values.angle);
-    assert_eq!(reading.error, read.error == Some(true));
+    assert_eq!(reading.error, read.error == Some(true), "{:?}", profile.own);
 }
 
 fn edits(decoder: Decoder, input: &mut Input<'_>) {
@@ -261,6 +268,7 @@ fn edits(decoder: Decoder, input: &mut Input<'_>) {
     let fields: Vec<&'static str> = kind.layout.fields().map(|field| field.row.name).collect();
     let mut sketch = Sketch::new(decoder, kind);
     check_sketch(&sketch);
+    check_text(&sketch);
     let mut steps = 0;
     while !input.is_empty() && steps < 24 {
         steps += 1;
@@ -296,6 +304,7 @@ fn edits(decoder: Decoder, input: &mut Input<'_>) {
         }
         check_sketch(&sketch);
     }
+    check_text(&sketch);
     sketch.mend();
     let mended = copied(sketch.bits());
     for field in sketch
@@ -367,13 +376,14 @@ fn of_digits(decoder: &Decoder, text: &str) {
 fn check_sketch(sketch: &Sketch) {
     let (kind, now) = (sketch.kind(), sketch.bits());
     assert_eq!(now.len(), kind.layout.len);
-    let direction = Some(kind.direction);
-    let again = Sketch::parse(sketch.decoder().clone(), &sketch.text(), direction);
-    let again = again.unwrap_or_else(|why| panic!("{}, {}: {why}", kind.name, sketch.text()));
-    assert_eq!(again.bits(), now, "{}, {}", kind.name, sketch.text());
     let slow = Resolved::new(kind.layout.layout, kind.layout.shape);
-    assert_eq!(kind.layout.holds(now), slow.faults(now).is_empty());
-    assert_eq!(kind.layout.faults(now), slow.faults(now));
+    let own = sketch.decoder().profile().own;
+    assert_eq!(kind.layout.faults(now), slow.faults(now), "{own:?}");
+    assert_eq!(
+        kind.layout.holds(now),
+        slow.faults(now).is_empty(),
+        "{own:?}"
+    );
     assert_eq!(kind.layout.reading(now), slow.reading(now));
     if let Ok(Some(reading)) = slow.reading(now) {
         let says = |field: &Field| {
@@ -393,6 +403,15 @@ fn check_sketch(sketch: &Sketch) {
     for note in &notes {
         check_record(&note.record().into());
     }
+}
+
+/// What is written is read again, and the other side makes something of it.
+fn check_text(sketch: &Sketch) {
+    let (kind, now) = (sketch.kind(), sketch.bits());
+    let direction = Some(kind.direction);
+    let again = Sketch::parse(sketch.decoder().clone(), &sketch.text(), direction);
+    let again = again.unwrap_or_else(|why| panic!("{}, {}: {why}", kind.name, sketch.text()));
+    assert_eq!(again.bits(), now, "{}, {}", kind.name, sketch.text());
     match sketch.heard() {
         Heard::Faults(faults) => assert!(!faults.is_empty()),
         Heard::NoFrame(why) => assert!(!why.to_string().is_empty()),
