@@ -16,7 +16,7 @@
 //! - [`recording`]: what was said on a line, as a file (feature `pcapng`);
 //! - [`history`]: what has been read, over hours; [`standstill`]: how much it varies at rest;
 //! - [`crc_search`]: the checksum of frames of an unknown format;
-//! - [`export`]: decoders as source, frames as tables;
+//! - [`export`]: decoders as source, frames as tables; [`link`]: a profile in a link;
 //! - [`product`]: what is sold; [`model`]: order codes; [`wiring`]: which wire goes where;
 //!   [`procedure`]: how the zero of each product is set; [`lamp`]: what an encoder's LED says;
 //! - [`calculator`]: what is worked out on paper; [`adapter`]: what USB adapters can do;
@@ -58,6 +58,7 @@ pub mod framing;
 pub mod history;
 pub mod lamp;
 pub mod layout;
+pub mod link;
 pub mod model;
 pub mod procedure;
 pub mod product;

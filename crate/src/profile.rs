@@ -350,6 +350,11 @@ impl Profile {
                 Some(_) => error("layout", format!("is not for {}", self.format.title())),
             });
         }
+        if let Some(own) = self.own
+            && let Some((name, bits)) = own.differs(self)
+        {
+            return Err(error(name, format!("are {bits} in the layout")));
+        }
         let limits = self.format.limits();
         let numbers = [
             ("angle-bits", self.angle_bits),

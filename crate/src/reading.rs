@@ -208,15 +208,17 @@ impl Resolved {
             let raw = self.read(field, bits);
             let byte = Some(bits::low_byte(raw));
             let asserted = Some((raw != 0) == (field.row.active == Active::High));
+            // Of several flags one is enough.
+            let either = |known: Option<bool>, says: Option<bool>| says.max(known);
             let tenths = || Some(bits::signed(raw, field.width as usize) as i32);
             match field.row.role {
                 Role::Turns => values.turns = Some(self.turns(raw)),
                 Role::Angle => values.angle = Some(raw),
-                Role::Error => values.error = asserted,
-                Role::Warning => values.warning = asserted,
+                Role::Error => values.error = either(values.error, asserted),
+                Role::Warning => values.warning = either(values.warning, asserted),
                 Role::Valid => {
                     values.valid = asserted;
-                    values.error = asserted.map(|valid| !valid);
+                    values.error = either(values.error, asserted.map(|valid| !valid));
                 }
                 Role::ZeroDefault => values.zero_default = asserted,
                 Role::Status => {
@@ -381,9 +383,9 @@ impl Resolved {
             match row.role {
                 Role::Angle => angle = Some(raw()),
                 Role::Turns => reading.turns = Some(self.turns(raw())),
-                Role::Error => reading.error = asserted(),
-                Role::Valid => reading.error = !asserted(),
-                Role::Warning => reading.warning = asserted(),
+                Role::Error => reading.error |= asserted(),
+                Role::Valid => reading.error |= !asserted(),
+                Role::Warning => reading.warning |= asserted(),
                 Role::Status => {
                     let raw = raw();
                     reading.status = Some(bits::low_byte(field.active_high(raw)));
@@ -444,19 +446,34 @@ impl Resolved {
             };
             self.write(field, &mut out, raw);
         }
-        self.seal(&mut out, Role::Parity);
-        self.seal(&mut out, Role::Crc);
+        self.mend(&mut out);
         self.repeat(&mut out);
         out
     }
 
-    /// Computes the checks of one kind anew.
-    pub fn seal(&self, out: &mut BitString, role: Role) {
-        for field in self.fields().filter(|field| field.row.role == role) {
-            if let Some(value) = self.expected(field, out.as_bits()) {
-                self.write(field, out, value);
+    /// Computes all checks anew; one may cover another, wherever they stand.
+    pub(crate) fn mend(&self, out: &mut BitString) {
+        let checks = self.fields().filter(|field| field.cover.is_some());
+        for _ in checks {
+            let parity = self.seal(out, Role::Parity);
+            if !self.seal(out, Role::Crc) && !parity {
+                break;
             }
         }
+    }
+
+    /// Computes the checks of one kind anew; whether any was another one.
+    pub fn seal(&self, out: &mut BitString, role: Role) -> bool {
+        let mut changed = false;
+        for field in self.fields().filter(|field| field.row.role == role) {
+            if let Some(value) = self.expected(field, out.as_bits())
+                && self.read(field, out.as_bits()) != value
+            {
+                self.write(field, out, value);
+                changed = true;
+            }
+        }
+        changed
     }
 
     /// Writes the word once more, as often as the shape says.

@@ -29,12 +29,12 @@ use crate::{
     explain::Note,
     format::Medium,
     framing::Why,
-    layout::{Field, Role},
+    layout::Field,
     reading::{Fault, Reading},
     record,
     session::Micros,
 };
-use alloc::{borrow::Cow, string::String, vec::Vec};
+use alloc::{borrow::Cow, format, string::String, vec::Vec};
 
 /// How long an encoder is listened to, in microseconds: longer than any reply takes.
 const LISTEN: Micros = 100_000;
@@ -123,16 +123,24 @@ impl Sketch {
         Self::read(decoder, bits, direction)
     }
 
-    /// The frame as a link writes it: of a clocked format 0 and 1, of ASI4 its characters, else
-    /// hexadecimal digits. [`Self::parse`] reads it again.
+    /// The frame as a link writes it: of a clocked format 0 and 1, else hexadecimal digits.
+    /// [`Self::parse`] reads it again.
     #[must_use]
     pub fn text(&self) -> String {
         let bits = self.bits();
         match self.decoder.profile().medium() {
-            Medium::Bits => (0..bits.len())
-                .map(|at| if bits.bit(at) { '1' } else { '0' })
-                .collect(),
-            Medium::Bytes | Medium::Text => record::hex(bits.bytes()),
+            Medium::Bits => {
+                // So few digits are taken for bytes unless they are marked.
+                let mark = if bits.len() < 8 { "0b" } else { "" };
+                let digits = (0..bits.len()).map(|at| if bits.bit(at) { '1' } else { '0' });
+                mark.chars().chain(digits).collect()
+            }
+            Medium::Bytes | Medium::Text => {
+                let digits = record::hex(bits.bytes());
+                // Without letters they may be bits, or decimal.
+                let other = digits.bytes().any(|digit| digit.is_ascii_alphabetic());
+                if other { digits } else { format!("0x{digits}") }
+            }
         }
     }
 
@@ -245,9 +253,7 @@ impl Sketch {
 
     /// Computes all checks again.
     pub fn mend(&mut self) {
-        for role in [Role::Parity, Role::Crc] {
-            self.kind.layout.seal(&mut self.bits, role);
-        }
+        self.kind.layout.mend(&mut self.bits);
     }
 
     /// What the other side makes of it: a master of a reply, an encoder of a request.

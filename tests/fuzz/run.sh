@@ -4,19 +4,25 @@
 #   tests/fuzz/run.sh decode 600     fuzzes for ten minutes, then merges what it has found
 #   tests/fuzz/run.sh session 0      only minimises the corpus
 #
-# Targets: capture decode detect framing session (tests/src/fuzz). A corpus is a text file, one input a
-# line in hexadecimal, which the ordinary tests replay. Of its inputs a run keeps as few as reach
-# all code that is reached, and those below a remark (#) anyway: they once broke a law. An input
-# that breaks one is printed as such a line. libFuzzer needs a C++ compiler.
+# A target is a file of fuzz_targets; its laws are in tests/src/fuzz. A corpus is a text file, one
+# input a line in hexadecimal, which the ordinary tests replay. Of its inputs a run keeps as few as
+# reach all code that is reached, and those below a remark (#) anyway: they once broke a law. An
+# input that breaks one is printed as such a line. libFuzzer needs a C++ compiler.
 set -euo pipefail
 cd "$(dirname "$0")"
-target=${1:?a target: capture decode detect framing session}
+targets=$(basename -s .rs fuzz_targets/*.rs | xargs)
+target=${1:?a target: $targets}
 seconds=${2:?seconds}
 corpus=$PWD/corpus/$target.txt
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/../../target}
 work=$CARGO_TARGET_DIR/fuzz/$target
 host=$(rustc -vV | sed -n 's/^host: //p')
 longest=600
+# A program keeps all layouts of users that it has met, up to a limit: then another one goes on.
+case $target in
+  link | sketch) runs=30000 ;;
+  *) runs=-1 ;;
+esac
 
 rm -rf "$work/seeds" "$work/least" "$work/broken"
 mkdir -p "$work"/{seeds,found,least,broken}
@@ -35,10 +41,11 @@ perl -ne 'BEGIN { $work = shift } chomp; next if /^#/;
   open F, ">", "$work/$."; print F pack "H*", $_; close F' "$work/seeds" "$corpus"
 
 status=0
-if ((seconds > 0)); then
-  "${fuzz[@]}" -max_total_time="$seconds" -print_final_stats=1 "$work/found" "$work/seeds" ||
-    status=$?
-fi
+SECONDS=0
+while ((status == 0 && SECONDS < seconds)); do
+  "${fuzz[@]}" -runs="$runs" -max_total_time=$((seconds - SECONDS)) -print_final_stats=1 \
+    "$work/found" "$work/seeds" || status=$?
+done
 for broken in "$work"/broken/*; do
   [[ -e $broken ]] || continue
   perl -e 'print "$ARGV[0]:\n"; open F, "<", shift; local $/; print unpack("H*", <F>), "\n"' "$broken"

@@ -6,16 +6,24 @@
 mod capture;
 mod decode;
 mod detect;
+mod dump;
 mod framing;
+mod link;
 mod recording;
 mod session;
+mod sketch;
+mod vcd;
 
 pub use capture::capture;
 pub use decode::decode;
 pub use detect::detect;
+pub use dump::dump;
 pub use framing::framing;
+pub use link::link;
 pub use recording::recording;
 pub use session::session;
+pub use sketch::sketch;
+pub use vcd::vcd;
 
 use encoderscope::{
     decode::Decoder,
@@ -141,6 +149,18 @@ impl<'a> Input<'a> {
             2 => lines(hex),
             _ => lines(|bytes| bytes.iter().map(|byte| format!("{byte:08b}")).collect()),
         }
+    }
+
+    /// Text: ASCII as it stands, other bytes a word each.
+    fn worded(&mut self, words: &[&str]) -> String {
+        let mut text = String::new();
+        for byte in core::mem::take(&mut self.0) {
+            match byte.checked_sub(128) {
+                None => text.push(char::from(*byte)),
+                Some(word) => text.push_str(words[usize::from(word) % words.len()]),
+            }
+        }
+        text
     }
 
     fn values(&mut self) -> Values {

@@ -9,10 +9,11 @@
 pub mod browser;
 pub mod desk;
 pub mod engine;
-pub mod link;
 pub mod message;
 pub mod plot;
 pub mod serial;
 pub mod store;
 pub mod tally;
 pub mod transcript;
+
+pub use encoderscope::link;

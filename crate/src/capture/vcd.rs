@@ -218,7 +218,9 @@ impl Vcd {
             .get_ref()
             .and_then(|inner| inner.downcast_ref::<vcd::ParseError>())
             .is_some();
-        Unreadable::Vcd(match placed {
+        // Where the text ends there is no line.
+        let ends = error.kind() == io::ErrorKind::UnexpectedEof;
+        Unreadable::Vcd(match placed || ends {
             true => error.to_string(),
             false => alloc::format!("{error} at line {}", self.parser.line()),
         })

@@ -121,8 +121,13 @@ impl Marks {
     pub(super) fn add(&mut self, at: Range<u64>, kind: Dropped) {
         self.total += 1;
         self.counts[kind.index()] += 1;
-        if self.places.len() < MOST_PLACES {
-            self.places.push(Mark { at, kind });
+        // Of a line the comments are found before what stands in front of them.
+        let index = self
+            .places
+            .partition_point(|known| known.at.start <= at.start);
+        if index < MOST_PLACES {
+            self.places.truncate(MOST_PLACES - 1);
+            self.places.insert(index, Mark { at, kind });
         }
     }
 }

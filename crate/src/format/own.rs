@@ -14,6 +14,7 @@
 //! ```
 
 mod draft;
+mod judge;
 mod shipped;
 
 pub(crate) use draft::LONGEST_NAME;
@@ -23,9 +24,8 @@ pub use shipped::{SHIPPED, Shipped};
 use super::{Format, Limits, Link, Spec, biss_c, said, ssi};
 use crate::{
     check::{Algorithm, Checksum, OwnCrc},
-    layout::{Check, Cover, Layout, Piece, Role, Row, Shape, StatusBit, Width},
+    layout::{Check, Cover, Layout, Piece, Row, Shape, StatusBit, Width},
     profile::{Justify, Profile},
-    sequence,
 };
 use alloc::{
     boxed::Box,
@@ -36,8 +36,6 @@ use alloc::{
 use core::fmt;
 use once_cell::race::OnceBox;
 
-/// Most bits of a frame.
-const LONGEST: u32 = 256;
 /// Most different layouts that are kept.
 const MOST_LAYOUTS: usize = 10_000;
 
@@ -158,6 +156,16 @@ impl Own {
         matches!(self.written.framing, Framing::Biss)
     }
 
+    /// The width that `profile` has not from this layout, and how wide it is here.
+    pub(crate) fn differs(&self, profile: &Profile) -> Option<(&'static str, u32)> {
+        let widths = [
+            ("angle-bits", profile.angle_bits, self.angle_bits),
+            ("turns-bits", profile.turns_bits, self.turns_bits),
+        ];
+        let mut wrong = widths.into_iter().filter(|(_, said, own)| said != own);
+        wrong.next().map(|(name, _, own)| (name, own))
+    }
+
     /// Makes `profile` one of this layout.
     pub(crate) fn fit(&'static self, profile: &mut Profile) {
         profile.own = Some(self);
@@ -220,7 +228,8 @@ pub fn of(text: &str) -> Result<&'static Own, String> {
 
 fn build(written: &Written, text: &str) -> Result<Own, String> {
     let names = names_of(written);
-    judge(written, &names)?;
+    judge::judge(written, &names)?;
+    let names = kept(&names);
     let rows: Vec<Row> = written
         .fields
         .iter()
@@ -263,120 +272,30 @@ fn build(written: &Written, text: &str) -> Result<Own, String> {
 }
 
 /// What fields are called: their own name, or their kind; framing fields are told apart.
-fn names_of(written: &Written) -> Vec<&'static str> {
-    let mut names: Vec<&'static str> = Vec::new();
+fn names_of(written: &Written) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
     for field in &written.fields {
         let base = field.name.as_deref().unwrap_or(field.kind.name());
         let single = !matches!(field.kind, Kind::Angle | Kind::Turns);
         let mut name = base.to_string();
         let mut count = 1;
-        while single && field.name.is_none() && names.contains(&&*name) {
+        while single && field.name.is_none() && names.contains(&name) {
             count += 1;
             name = format!("{base}{count}");
         }
-        let known = names.iter().find(|known| **known == name).copied();
-        names.push(known.unwrap_or_else(|| Box::leak(name.into_boxed_str())));
+        names.push(name);
     }
     names
 }
 
-/// What no layout can be.
-fn judge(written: &Written, names: &[&str]) -> Result<(), String> {
-    let fields = &written.fields;
-    let total: u32 = fields.iter().map(|field| field.width).sum();
-    let sum = |kind: Kind| -> u32 {
-        let mine = fields.iter().filter(|field| field.kind == kind);
-        mine.map(|field| field.width).sum()
-    };
-    if total > LONGEST {
-        return Err(format!("{total} bits are more than {LONGEST}"));
+/// The names for as long as the program runs; parts of one number share theirs.
+fn kept(names: &[String]) -> Vec<&'static str> {
+    let mut kept: Vec<&'static str> = Vec::new();
+    for name in names {
+        let known = kept.iter().find(|known| *known == name).copied();
+        kept.push(known.unwrap_or_else(|| Box::leak(name.clone().into_boxed_str())));
     }
-    for kind in [Kind::Angle, Kind::Turns] {
-        let (bits, (_, most)) = (sum(kind), kind.widths());
-        if bits > most {
-            return Err(format!("{bits} bits of {} exceed {most}", kind.name()));
-        }
-    }
-    if sum(Kind::Angle) == 0 {
-        return Err("there is no angle".to_string());
-    }
-    if let Framing::Poll(byte) = written.framing
-        && let Some(danger) = sequence::danger(&SPEC.default, &[byte])
-    {
-        return Err(format!("{danger}: it is not sent by polling"));
-    }
-    let serial = matches!(written.framing, Framing::Stream | Framing::Poll(_));
-    if serial && !total.is_multiple_of(8) {
-        return Err(format!(
-            "{total} bits are no whole bytes, which a serial line sends"
-        ));
-    }
-    let same = |one: &Draft, other: &Draft| {
-        one.kind == other.kind && !matches!(one.kind, Kind::Crc | Kind::Even | Kind::Odd)
-    };
-    for (index, (field, name)) in fields.iter().zip(names).enumerate() {
-        let earlier = fields.iter().zip(names).take(index);
-        let mut mine = earlier.filter(|(_, known)| *known == name);
-        if mine.any(|(other, _)| !same(field, other)) {
-            return Err(format!("two fields are called {name}"));
-        }
-        judge_check(written, names, index)?;
-    }
-    let runs = fields
-        .chunk_by(|one, other| one.gray == other.gray)
-        .filter(|run| run.first().is_some_and(|field| field.gray));
-    if runs.count() > 1 {
-        return Err("gray fields must stand side by side: they are one word".to_string());
-    }
-    if fields.iter().any(|field| field.gray && field.little_endian) {
-        return Err("a field is either gray or le".to_string());
-    }
-    let gray = fields.iter().filter(|field| field.gray);
-    if gray.map(|field| field.width).sum::<u32>() > 64 {
-        return Err("a gray word has at most 64 bits".to_string());
-    }
-    Ok(())
-}
-
-/// What a check cannot cover.
-fn judge_check(written: &Written, names: &[&str], index: usize) -> Result<(), String> {
-    let Some(field) = written.fields.get(index) else {
-        return Ok(());
-    };
-    let place = |name: &Option<String>, other: usize| match name {
-        None => Ok(other),
-        Some(name) => {
-            let found = names.iter().position(|known| known == name);
-            found.ok_or_else(|| format!("no field is called \"{name}\""))
-        }
-    };
-    let first = place(&field.from, 0)?;
-    let last = place(&field.to, index.saturating_sub(1))?;
-    let span = first..(last + 1).min(names.len());
-    if span.contains(&index) && index > 0 {
-        return Err(format!("the check {} covers itself", field.kind.name()));
-    }
-    let covered: u32 = match index {
-        0 if field.to.is_none() => 0,
-        _ => written
-            .fields
-            .get(span)
-            .unwrap_or_default()
-            .iter()
-            .map(|field| field.width)
-            .sum(),
-    };
-    let rule = field.crc;
-    let whole = covered.is_multiple_of(8);
-    if field.kind == Kind::Crc && !whole && (rule.reflected || rule.init != 0) {
-        return Err(format!(
-            "a crc that is reflected or does not start from 0 covers whole bytes, not {covered} bits"
-        ));
-    }
-    match field.kind.role() {
-        Role::Crc | Role::Parity if covered == 0 => Err("a check covers nothing".to_string()),
-        _ => Ok(()),
-    }
+    kept
 }
 
 fn row(field: &Draft, name: &'static str, names: &[&'static str]) -> Row {
@@ -459,7 +378,6 @@ fn group(written: &Written, rows: Vec<Row>, pieces: &mut Vec<Piece>) {
     if !word.is_empty() {
         pieces.push(Piece::Gray(always, Box::leak(word.into_boxed_slice())));
     }
-    pieces.extend(number.into_iter().map(Piece::Row));
 }
 
 const fn always(_: &Shape) -> bool {

@@ -57,8 +57,9 @@ pub(crate) struct Glimpse {
 }
 
 impl Resolved {
-    /// The same layout, prepared to judge and read many frames quickly; text, repeated words
-    /// and frames that are longer than sixteen bytes stay as they are.
+    /// The same layout, prepared to judge and read many frames quickly; text, repeated words,
+    /// coded bits with one value, frames that are longer than sixteen bytes and those with several
+    /// or coded flags of an error stay as they are.
     #[must_use]
     pub fn sieved(mut self) -> Self {
         // Where size counts, few frames are read.
@@ -68,14 +69,26 @@ impl Resolved {
         let plain = self.fields().all(|field| {
             let once = field.row.role != Role::Repeat;
             let coding = self.coding(field).map(|(coding, _)| coding);
-            once && field.width <= u64::BITS && coding != Some(Coding::Decimal)
+            let fixed = field.row.constant.is_some() || field.row.zeros != 0;
+            let read = match coding {
+                Some(Coding::Gray) => !fixed,
+                other => other.is_none(),
+            };
+            once && field.width <= u64::BITS && read
         });
         let checks: u32 = self
             .fields()
             .filter(|field| Field::is_binding(field))
             .map(|field| field.width)
             .sum();
-        if !plain || self.len > 16 * WORD || checks > u16::BITS {
+        let single = |of: fn(Role) -> bool| {
+            let mut flags = self.fields().filter(|field| of(field.row.role));
+            let plain = |flag: &Field| self.coding(flag).is_none();
+            flags.next().is_none_or(plain) && flags.next().is_none()
+        };
+        let flags = single(|role| matches!(role, Role::Error | Role::Valid))
+            && single(|role| role == Role::Warning);
+        if !plain || !flags || self.len > 16 * WORD || checks > u16::BITS {
             return self;
         }
         let signed = self.shape.profile.turns_code == TurnsCode::Signed;

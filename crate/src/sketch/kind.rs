@@ -118,9 +118,9 @@ impl FrameKind {
         let layout = match decoder.profile().medium() {
             Medium::Bits => decoder.line(bits)?.layout,
             Medium::Bytes | Medium::Text => match decoder.frame(bits.bytes()) {
-                Some(frame) => frame.layout,
-                None if bits.len() < need => return Err(truncated),
-                None => return Err(Why::NoFrame),
+                Some(frame) if frame.bits.len() == bits.len() => frame.layout,
+                _ if bits.len() < need => return Err(truncated),
+                _ => return Err(Why::NoFrame),
             },
         };
         Ok(Self {

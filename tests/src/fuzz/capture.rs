@@ -1,8 +1,6 @@
 use super::Input;
 use encoderscope::{
-    capture::{
-        Capture, Changes, Clocking, Edge, Kind, Options, Reader, Recording, Unreadable, Wire, sniff,
-    },
+    capture::{Capture, Clocking, Edge, Kind, Options, Recording, Wire, sniff},
     decode::Decoder,
     format::Format,
 };
@@ -11,8 +9,7 @@ use encoderscope::{
 ///
 /// # Panics
 ///
-/// A law is broken: a reader depends on how its text is cut, clocks are lost, frames are out of
-/// order, or something has no words.
+/// A law is broken: clocks are lost, frames are out of order, or something has no words.
 pub fn capture(data: &[u8]) {
     let mut input = Input(data);
     let clocked: Vec<Format> = Format::ALL
@@ -94,8 +91,7 @@ fn edges(decoder: &Decoder, mut input: Input<'_>) {
     assert!(counted == falls || clocking != Clocking::Counted);
 }
 
-fn text(decoder: &Decoder, mut input: Input<'_>, kind: Kind, head: &[u8]) {
-    let cut = usize::from(input.word());
+fn text(decoder: &Decoder, input: Input<'_>, kind: Kind, head: &[u8]) {
     let mut text = head.to_vec();
     text.extend_from_slice(input.0);
     let _ = sniff(&text);
@@ -112,19 +108,4 @@ fn text(decoder: &Decoder, mut input: Input<'_>, kind: Kind, head: &[u8]) {
         }
         Err(error) => assert!(error.to_string().len() > 10),
     }
-    let (a, b) = text.split_at(cut.min(text.len()));
-    assert_eq!(changes(kind, &[a, b]), changes(kind, &[&text]));
-    let mut reader = Reader::new(kind, None).expect("it is read here");
-    if reader.push(a).is_ok() {
-        let _ = reader.cut();
-    }
-}
-
-/// The changes of a recording that comes in pieces, or why there are none.
-fn changes(kind: Kind, cuts: &[&[u8]]) -> Result<Changes, Unreadable> {
-    let mut reader = Reader::new(kind, None)?;
-    for cut in cuts {
-        reader.push(cut)?;
-    }
-    reader.finish()
 }

@@ -47,6 +47,11 @@ fn detection_holds_its_laws() {
 }
 
 #[test]
+fn pasted_text_holds_its_laws() {
+    replay(fuzz::dump, include_str!("../../fuzz/corpus/dump.txt"), 500);
+}
+
+#[test]
 fn framing_holds_its_laws() {
     replay(
         fuzz::framing,
@@ -62,6 +67,25 @@ fn conversations_hold_their_laws() {
         include_str!("../../fuzz/corpus/session.txt"),
         500,
     );
+}
+
+#[test]
+fn links_hold_their_laws() {
+    replay(fuzz::link, include_str!("../../fuzz/corpus/link.txt"), 500);
+}
+
+#[test]
+fn sketches_hold_their_laws() {
+    replay(
+        fuzz::sketch,
+        include_str!("../../fuzz/corpus/sketch.txt"),
+        500,
+    );
+}
+
+#[test]
+fn value_changes_hold_their_laws() {
+    replay(fuzz::vcd, include_str!("../../fuzz/corpus/vcd.txt"), 500);
 }
 
 #[test]

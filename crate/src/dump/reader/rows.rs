@@ -65,8 +65,8 @@ impl Reader {
         let front = crate::dump::line::Front::read(text.line, &self.dump.writing);
         let line = text.line.get(front.quote.end..).unwrap_or_default();
         let skipped = front.quote.end;
-        self.drop(text, front.quote.clone(), Dropped::Quote);
         if line.trim() == "*" {
+            self.drop(text, front.quote.clone(), Dropped::Quote);
             let start = skipped + line.len() - line.trim_start().len();
             self.starred = Some(text.place(start..start + 1));
             return;
@@ -80,6 +80,7 @@ impl Reader {
         };
         let at = offsets.at(&row);
         let bytes: Vec<u8> = offsets.ordered(&mut row).into();
+        self.drop(text, front.quote.clone(), Dropped::Quote);
         let [start, offset, end] = row.places.map(|place| place + skipped);
         if let (Some(star), Some(at)) = (self.starred.take(), at)
             && !self.repeat(at)

@@ -56,13 +56,8 @@ impl Reader {
             Digits::Numbers => self.number(text, whole, from),
             Digits::Binary => {
                 let bits = self.bits(text, body, from);
-                let len = bits.as_bits().len();
-                if self.medium == Medium::Bits || len.is_multiple_of(8) {
-                    self.dump.data.extend_from_slice(bits.as_bits().bytes());
-                    self.dump.close(len, time, direction);
-                } else {
-                    self.unread(text, from..whole.trim_end().len());
-                }
+                self.dump.data.extend_from_slice(bits.as_bits().bytes());
+                self.dump.close(bits.as_bits().len(), time, direction);
                 return;
             }
             Digits::Decimal => self.bytes(text, body, from, Base::Decimal),
@@ -83,23 +78,24 @@ impl Reader {
         }
     }
 
-    /// The bits of a line of 0 and 1.
+    /// The bits of a line of 0 and 1; none where bytes are asked for and they are not whole ones.
     fn bits(&mut self, text: Text<'_>, body: &str, from: usize) -> BitString {
         let label = prose::label(body, None).unwrap_or(0);
         self.drop(text, from..from + label, Dropped::Column);
+        let tokens = || tokens_of(body).filter(|token| token.at >= label);
         let mut bits = BitString::default();
-        for token in tokens_of(body).filter(|token| token.at >= label) {
-            let Some((digits, marked)) = token.binary() else {
-                let start = from + token.at;
-                self.unread(text, start..start + token.text.len());
-                continue;
-            };
+        for (digits, marked) in tokens().filter_map(Token::binary) {
             if marked && self.medium != Medium::Bits {
                 (digits.len()..8).for_each(|_| bits.push(false));
             }
             digits.bytes().for_each(|digit| bits.push(digit == b'1'));
         }
-        bits
+        let fits = self.medium == Medium::Bits || bits.as_bits().len().is_multiple_of(8);
+        for token in tokens().filter(|token| !fits || token.binary().is_none()) {
+            let start = from + token.at;
+            self.unread(text, start..start + token.text.len());
+        }
+        if fits { bits } else { BitString::default() }
     }
 
     /// The bytes of a line, between whatever else stands there.

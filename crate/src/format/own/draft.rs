@@ -268,6 +268,7 @@ fn number(text: &str) -> Result<u64, String> {
 }
 
 fn name(text: &str) -> Result<String, String> {
+    let text = text.trim();
     match text.chars().count() {
         0 => Err("a name is empty".to_string()),
         1..=LONGEST_NAME => Ok(text.to_string()),
@@ -286,7 +287,7 @@ impl FromStr for Written {
         else {
             return Err("a layout is TITLE;line|biss|stream|poll:BYTE;FIELD,FIELD,…".to_string());
         };
-        let title = name(title.trim())?;
+        let title = name(title)?;
         let framing = framing.trim().parse()?;
         let fields: Vec<Draft> = fields
             .split(',')
@@ -340,6 +341,12 @@ impl FromStr for Draft {
         {
             return Err(format!("a value has more than {width} bits"));
         }
+        if draft.bits.len() > width as usize {
+            return Err(format!(
+                "{} names are not for {width} bits",
+                draft.bits.len()
+            ));
+        }
         if kind == Kind::Crc && draft.crc.polynomial == 0 {
             return Err("a crc needs its polynomial, for example crc:8:0x97".to_string());
         }
@@ -373,7 +380,8 @@ impl Draft {
             Some(("bits", value)) if self.kind == Kind::Status => {
                 self.bits = value
                     .split('|')
-                    .map(|bit| bit.chars().take(LONGEST_NAME).collect())
+                    .map(|bit| bit.chars().take(LONGEST_NAME).collect::<String>())
+                    .map(|bit| bit.trim().to_string())
                     .collect();
                 true
             }

@@ -1,8 +1,17 @@
-//! The URL fragment: `#/console?format=t485&angle-bits=23`.
+//! What a link says: the URL fragment, `#/console?format=t485&angle-bits=23`.
 
-use encoderscope::profile::{Profile, ProfileError};
+use crate::profile::{Profile, ProfileError};
+use alloc::{format, string::String, vec::Vec};
 
 /// A fragment in parts.
+///
+/// ```
+/// use encoderscope::link::Fragment;
+/// let fragment = Fragment::parse("#/decode?format=t485&angle-bits=17&dump=1A%2020");
+/// assert_eq!((&*fragment.area, fragment.value("dump")), ("decode", Some("1A 20")));
+/// assert_eq!(fragment.profile().unwrap()?.angle_bits, 17);
+/// # Ok::<(), encoderscope::profile::ProfileError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fragment {
     /// The area, without the slash.
@@ -47,7 +56,14 @@ impl Fragment {
     }
 }
 
-/// The parameters of a profile as a query.
+/// The parameters of a profile as a query; [`profile`] reads it again.
+///
+/// ```
+/// use encoderscope::{format::Format, link};
+/// let period = Format::Period.default_profile();
+/// assert!(link::query(&period).starts_with("format=period&"));
+/// assert_eq!(link::profile(&link::query(&period)), Ok(period));
+/// ```
 #[must_use]
 pub fn query(profile: &Profile) -> String {
     let pairs = profile.parameters().into_iter();
@@ -82,13 +98,38 @@ fn parse_query(query: &str) -> Vec<(String, String)> {
         .collect()
 }
 
-/// Text as a value of a query.
+/// Text as a value of a query, as `encodeURIComponent` of JavaScript writes it.
+///
+/// ```
+/// assert_eq!(encoderscope::link::encode("1A + é"), "1A%20%2B%20%C3%A9");
+/// ```
 #[must_use]
 pub fn encode(text: &str) -> String {
-    js_sys::encode_uri_component(text).into()
+    let mut out = String::new();
+    for byte in text.bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' => out.push(char::from(byte)),
+            _ if b"-_.!~*'()".contains(&byte) => out.push(char::from(byte)),
+            _ => out.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    out
 }
 
+/// What a name or a value says; as it stands where its codes are none.
 fn decode(text: &str) -> String {
     let spaced = text.replace('+', " ");
-    js_sys::decode_uri_component(&spaced).map_or(spaced, Into::into)
+    decoded(&spaced).unwrap_or(spaced)
+}
+
+fn decoded(text: &str) -> Option<String> {
+    let mut parts = text.split('%');
+    let mut bytes = parts.next()?.as_bytes().to_vec();
+    for part in parts {
+        let (code, rest) = part.split_at_checked(2)?;
+        let digits = code.bytes().all(|digit| digit.is_ascii_hexdigit());
+        bytes.push(u8::from_str_radix(code, 16).ok().filter(|_| digits)?);
+        bytes.extend_from_slice(rest.as_bytes());
+    }
+    String::from_utf8(bytes).ok()
 }
