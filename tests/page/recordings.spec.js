@@ -59,7 +59,7 @@ const saved = async (page, button) => {
 const wireshark = (path) => {
   const fields = ['frame.time_epoch', 'rtacser.eventtype', 'data.data', 'frame.comment', 'frame.interface_name'];
   const words = ['-r', path, '-T', 'fields', ...fields.flatMap((field) => ['-e', field])];
-  const out = execFileSync('tshark', words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
+  const out = execFileSync('tshark', words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: Infinity });
   const lines = out.split('\n').filter((line) => line);
   return lines.map((line) => {
     const [time, event, data, comment, adapter] = line.split('\t');
@@ -171,6 +171,7 @@ test('a replay is held, goes on, jumps, and begins once more', async ({ page }) 
   await expect(page.locator('.angle h2')).toHaveText('Recording · angle');
   await at(page, 'replay-play').click();
   await expect(at(page, 'replay-play')).toHaveText('Play');
+  await page.waitForTimeout(500);
   const held = await number(page, 'frames-ok');
   const place = await at(page, 'replay-place').inputValue();
   await page.waitForTimeout(500);
@@ -241,13 +242,13 @@ test('all devices of a BUS are in a replay @serial', async ({ page }) => {
 test('two recordings are compared', async ({ page }) => {
   await demo(page);
   await record(page);
-  await page.waitForTimeout(1_200);
+  await until(page, 'recorded', (size) => size > 60_000);
   await stop(page);
   await page.getByText('Demo status and faults').click();
   await page.locator('input[name="demo-flip"]').fill('50');
   await until(page, 'frames-bad', (frames) => frames > 5);
   await record(page);
-  await page.waitForTimeout(1_200);
+  await until(page, 'recorded', (size) => size > 60_000);
   await stop(page);
   await expect(at(page, 'recording')).toHaveCount(2);
   for (const box of await page.getByLabel('Compare').all()) await box.check();

@@ -131,7 +131,7 @@ pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
     view! {
         <button data-testid="report" on:click=open>"Support file…"</button>
         {move || (wanted.get() && recordings.story.with(Option::is_some)).then(|| view! {
-            <div class="report" data-testid="report-preview">
+            <div class="support" data-testid="report-preview">
                 <h3>"What goes into the support file"</h3>
                 {move || report.get().map(|report| view! { <Contents report=report /> })}
                 <label class="remark">
@@ -171,7 +171,7 @@ pub(super) fn Opened(recordings: Recordings) -> impl IntoView {
     move || {
         recordings.opened.get().map(|report| {
             view! {
-                <section class="panel report" data-testid="report-opened">
+                <section class="panel support" data-testid="report-opened">
                     <h2>"Support file"</h2>
                     <p>
                         "The console shows what it showed when the file was made. "
