@@ -102,6 +102,7 @@ impl Engine {
         let mut state = self.state.borrow_mut();
         match message {
             ToEngine::Next => state.wanted = true,
+            ToEngine::Ping => (state.post)(FromEngine::Pong),
             ToEngine::Set(setting) => state.begin(setting),
             ToEngine::StopSetting => state.stop(),
             ToEngine::ForgetSetting => state.tally.forget_progress(),

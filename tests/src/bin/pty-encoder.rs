@@ -4,7 +4,8 @@
 //! Prints the path of the pty's other end, then takes a setting a line from standard input:
 //! `turning=R` (revolutions per second), `still=TURNS`, `noise=COUNTS`, `status=BITS`,
 //! `error=0|1`, `warning=0|1`, `temperature=TENTHS`, the supply `power=off|on|set|reset`
-//! (with a zero input of the IP-75 at 0 V), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
+//! (with a zero input of the IP-75 at 0 V), `counter=volatile|flash` (what becomes of the turns
+//! without it), and the faults `echo=0|1`, `silent=0|1`, `flip=N`,
 //! `drop=N`, `double=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of
 //! 1000 replies), `delay=MICROSECONDS`, `jitter=MICROSECONDS` (of every reply), `zeros=BYTES` (at
 //! power-on). `exclusive=0` lets another program open the pty, as the last close of a real port does;
@@ -34,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
     use encoderscope::{
-        emulator::{Bus, Emulator, Sent, Shaft, ZeroInput},
+        emulator::{Bus, Counter, Emulator, Sent, Shaft, ZeroInput},
         profile::Profile,
         sequence::danger,
         session::Micros,
@@ -252,6 +253,13 @@ mod native {
                 "reset" => emulator.power_on(now, Some(ZeroInput::Reset)),
                 _ => return Err(format!("{value} is no supply").into()),
             },
+            "counter" => {
+                emulator.counter = match value {
+                    "volatile" => Counter::Volatile,
+                    "flash" => Counter::Flash,
+                    _ => return Err(format!("{value} is no counter").into()),
+                }
+            }
             "temperature" => emulator.temperature = value.parse()?,
             "lose" => emulator.faults.lose = value.parse()?,
             "late" => emulator.faults.late = value.parse()?,

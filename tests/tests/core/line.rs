@@ -4,8 +4,10 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use encoderscope::{
+    bits::Bits,
     emulator::{Emulator, Faults, Sent, Shaft},
-    session::Micros,
+    reading::Reading,
+    session::{Micros, Output, Session},
 };
 use encoderscope_tests::decoder;
 
@@ -134,5 +136,63 @@ fn zeros_come_with_the_power_before_anything_else() {
         assert_eq!(encoder.poll_output(SECOND + 10_000), None);
         encoder.handle_input(SECOND + 20_000, &[0x1a]);
         assert!(encoder.poll_output(SECOND + 30_000).is_some());
+    }
+}
+
+/// What a session reads from `now` on, for three seconds.
+fn read(session: &mut Session, encoder: &mut Emulator, mut now: Micros) -> Vec<Reading> {
+    let end = now + 3 * SECOND;
+    let mut readings = Vec::new();
+    while now < end {
+        session.handle_timeout(now);
+        while let Some(bytes) = encoder.poll_output(now) {
+            session.handle_input(now, &bytes);
+        }
+        while let Some(output) = session.poll_output() {
+            match output {
+                Output::Transmit(bytes) => encoder.handle_input(now, &bytes),
+                Output::Frame {
+                    bytes, sure: true, ..
+                } => {
+                    let layout = session.decoder().layout(&bytes);
+                    let bits = Bits::of_bytes(&bytes);
+                    readings.extend(layout.and_then(|layout| layout.reading(bits).ok().flatten()));
+                }
+                _ => {}
+            }
+        }
+        let next = encoder.deadline().unwrap_or(Micros::MAX);
+        now = next.min(session.deadline()).max(now + 1);
+    }
+    readings
+}
+
+#[test]
+fn zeros_at_power_on_are_no_reading_and_those_behind_them_are_found() {
+    for parameters in [
+        "format=t485",
+        "format=rs485",
+        "format=bus",
+        "format=period",
+        "format=asi1",
+        "format=asi4",
+    ] {
+        for zeros in (0..16).chain([60, 63, 64]) {
+            let decoder = decoder(parameters);
+            let mut encoder = Emulator::new(*decoder.profile(), Shaft::still(5.5)).unwrap();
+            let mut session = Session::new(decoder, 20_000).unwrap();
+            encoder.interval = Some(5_000);
+            let before = read(&mut session, &mut encoder, 0);
+            encoder.faults.zeros = zeros;
+            encoder.power_off(3 * SECOND);
+            read(&mut session, &mut encoder, 3 * SECOND);
+            encoder.power_on(6 * SECOND, None);
+            let after = read(&mut session, &mut encoder, 6 * SECOND);
+            let told = format!("{parameters} {zeros} zeros: {} readings", after.len());
+            assert!(after.len() > 90, "{told}");
+            // A packet of zeros is a good one of ASI1, which says that its position is not valid.
+            let made_up = |one: &&Reading| one.angle != before[0].angle && !one.error;
+            assert_eq!(after.iter().find(made_up), None, "{told}");
+        }
     }
 }

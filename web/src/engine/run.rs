@@ -20,6 +20,10 @@ use encoderscope::{
 /// So late a step is only made after the tab was frozen or the machine asleep.
 const ASLEEP: Micros = 1_000_000;
 
+/// How a setting ends that is broken off before its first command.
+pub(super) const UNBEGUN: &str =
+    "Stopped: it was broken off. Nothing was sent that changes an encoder.";
+
 /// An open link.
 pub(super) struct Run {
     /// What reads; nothing while an encoder is searched for.
@@ -219,11 +223,15 @@ impl Run {
             session.rest();
         }
         self.follow_session(self.looked, tally);
-        if let Some(Talk::Set(_, runner)) = &mut self.talk {
-            runner.stop();
-            while let Some(event) = runner.poll_output() {
-                tally.follow(&event);
+        match &mut self.talk {
+            Some(Talk::Set(_, runner)) => {
+                runner.stop();
+                while let Some(event) = runner.poll_output() {
+                    tally.follow(&event);
+                }
             }
+            Some(Talk::Scan(_, After::Set(setting))) => tally.refuse(*setting, UNBEGUN),
+            _ => {}
         }
     }
 

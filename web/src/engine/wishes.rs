@@ -2,7 +2,7 @@
 
 use super::{
     DEMO_INTERVAL, SNAPSHOTS, State,
-    run::{Run, Todo, Wire},
+    run::{Run, Todo, UNBEGUN, Wire},
     talk::{After, Talk},
 };
 use crate::{
@@ -61,8 +61,7 @@ impl State {
         match &mut run.talk {
             Some(Talk::Set(_, runner)) => runner.stop(),
             Some(Talk::Scan(_, After::Set(setting))) => {
-                let why = "Stopped: it was broken off. Nothing was sent that changes an encoder.";
-                self.tally.refuse(*setting, why);
+                self.tally.refuse(*setting, UNBEGUN);
                 run.talk = None;
             }
             Some(Talk::Scan(_, After::Read)) => run.talk = None,
