@@ -68,6 +68,7 @@ const deaths = [
   ['is ended without a word', () => self.close()],
 ].map(([how, end]) => ({
   fault: `the worker ${how}`,
+  formats: ['t485', 'period'],
   sees: ['No port', 'Reading'],
   final: true,
   meanwhile: async (trial) => {
