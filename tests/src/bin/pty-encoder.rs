@@ -144,8 +144,6 @@ mod native {
     /// A line that says nothing for so long is between two conversations: a sequence waits longer
     /// before its first command.
     const PAUSE: Micros = 80_000;
-    /// Bytes that come closer together belong to one command: a sequence waits longer between two.
-    const APART: Micros = 10_000;
     /// Bytes are known to have been read when none wait so long after they were sent.
     const READ_BY: Micros = 5_000;
 
@@ -177,13 +175,11 @@ mod native {
             }
         }
 
-        /// Bytes have been heard.
+        /// A command has been heard: what is sent at once comes at once.
         fn hear(&mut self, now: Micros) {
-            let quiet = now - self.heard_at;
+            self.begun |= now - self.heard_at >= PAUSE;
             self.heard_at = now;
-            let begins = !self.begun && quiet >= PAUSE;
-            self.begun |= begins;
-            if self.begun && (begins || quiet >= APART) {
+            if self.begun {
                 self.left = self.left.saturating_sub(1);
             }
         }
@@ -285,10 +281,7 @@ mod native {
         let mut plug: Option<Plug> = None;
         loop {
             let now = start.elapsed().as_micros() as u64;
-            let rate = tcgetattr(&port.slave)?.output_speed();
-            for device in &mut line.devices {
-                device.faults.rate = Some(rate).filter(|rate| *rate != device.profile().baud);
-            }
+            follow_rate(line, port)?;
             let mut output = Vec::new();
             while let Some(bytes) = line.poll_output(now) {
                 output.extend(bytes);
@@ -331,6 +324,8 @@ mod native {
                 if let Some(first) = line.devices.first() {
                     port.counts.hear(first.profile(), bytes);
                 }
+                // It may have been opened while this waited.
+                follow_rate(line, port)?;
                 line.handle_input(now, bytes);
                 if let Some(plug) = &mut plug {
                     plug.hear(now);
@@ -361,6 +356,15 @@ mod native {
                 }
             }
         }
+    }
+
+    /// The adapter runs at the rate that it was opened with.
+    fn follow_rate(line: &mut Bus, port: &Port) -> Result<(), Errno> {
+        let rate = tcgetattr(&port.slave)?.output_speed();
+        for device in &mut line.devices {
+            device.faults.rate = Some(rate).filter(|rate| *rate != device.profile().baud);
+        }
+        Ok(())
     }
 
     fn write_all(port: &mut Port, mut bytes: &[u8]) -> Result<(), Errno> {
