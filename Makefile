@@ -1,5 +1,5 @@
 # Everything that is missing is installed by the scripts; what they may not install they name.
-.PHONY: serve test bench fuzz dist pack docs fmt clean
+.PHONY: serve test reliability soak bench fuzz dist pack docs fmt clean
 
 serve: dist
 	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
@@ -7,6 +7,12 @@ serve: dist
 
 test:
 	@tests/run.sh
+
+reliability: dist
+	@tests/reliability/run.sh matrix tabs unplugged
+
+soak: dist
+	@tests/reliability/soak.sh $(or $(SECONDS),3600)
 
 bench:
 	@tests/bench/run.sh $(if $(WRITE),--write)

@@ -36,5 +36,11 @@ web/build.sh
 cargo build -q -p encoderscope-tests --bin pty-encoder
 tests/page/run.sh
 
+say "the page under faults"
+tests/reliability/run.sh matrix tabs unplugged
+
 say "the npm package, the custom element and the documents"
 tests/package/run.sh
+
+say "five minutes of mixed traffic with faults"
+tests/reliability/soak.sh 300

@@ -15,7 +15,7 @@ pub use bus::Bus;
 pub use counter::{Battery, Counter, Direction, ZeroInput};
 pub use shaft::Shaft;
 pub use uart::heard;
-pub use wire::Faults;
+pub use wire::{Faults, Sent};
 
 use crate::{
     bits::{self, BitString},
@@ -26,7 +26,7 @@ use crate::{
     reading::Values,
     session::Micros,
 };
-use alloc::vec::Vec;
+use alloc::{vec, vec::Vec};
 pub(crate) use answers::TURNAROUND;
 use answers::Talk;
 use counter::Scales;
@@ -92,6 +92,7 @@ pub struct Emulator {
     next_frame: Option<Micros>,
     latched: Option<(Micros, BitString)>,
     wire: Wire,
+    sent: Sent,
 }
 
 impl Emulator {
@@ -124,6 +125,7 @@ impl Emulator {
             next_frame: None,
             latched: None,
             wire: Wire::new(),
+            sent: Sent::default(),
         })
     }
 
@@ -143,6 +145,21 @@ impl Emulator {
     #[must_use]
     pub fn memory(&self, address: u8) -> Option<u8> {
         self.talk.memory.get(usize::from(address)).copied()
+    }
+
+    /// What it has sent, and what became of it on the way.
+    ///
+    /// ```
+    /// use encoderscope::{emulator::{Emulator, Shaft}, profile::Profile};
+    /// let mut encoder = Emulator::new(Profile::parse([("format", "t485")])?, Shaft::still(0.5))?;
+    /// encoder.faults.flip = 1000;
+    /// encoder.handle_input(0, &[0x1a]);
+    /// assert_eq!((encoder.sent().whole, encoder.sent().damaged), (0, 1));
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
+    #[must_use]
+    pub const fn sent(&self) -> &Sent {
+        &self.sent
     }
 
     /// When the next bytes are due.
@@ -187,8 +204,7 @@ impl Emulator {
                 true => self.answer(now, *byte),
                 false => Vec::new(),
             };
-            let start = now + TURNAROUND;
-            self.wire.send(&self.faults, start, baud, echo, &reply);
+            self.send(now + TURNAROUND, echo, &reply);
         }
     }
 
@@ -222,6 +238,7 @@ impl Emulator {
         self.latched = Some((now + LATCHED, word));
         let flips = Faults {
             drop: 0,
+            double: 0,
             insert: 0,
             ..self.faults
         };
@@ -254,6 +271,9 @@ impl Emulator {
             let lost = split(self.scales.position(shaft, self.direction)).0 as f64;
             self.scales.shift(slip.unwrap_or(lost), self.direction);
             self.turns_lost = self.counter == Counter::Battery && slip.is_none();
+        }
+        if self.faults.zeros > 0 {
+            self.wire.arrive(now, vec![0; self.faults.zeros]);
         }
         self.ready_at = now + START_UP;
         self.next_frame = Some(self.ready_at);
@@ -343,11 +363,21 @@ impl Emulator {
         }
         while next <= now {
             let frame = self.decoder.encode(&self.values(next)).into_bytes();
-            let baud = self.profile().baud;
-            self.wire.send(&self.faults, next, baud, &[], &frame);
+            self.send(next, &[], &frame);
             next += interval;
         }
         self.next_frame = Some(next);
+    }
+
+    /// Puts a reply on the wire, behind the echo of its request.
+    fn send(&mut self, start: Micros, echo: &[u8], reply: &[u8]) {
+        let baud = self.profile().baud;
+        let arrives = self.wire.send(&self.faults, start, baud, echo, reply);
+        if !reply.is_empty() {
+            let decoder = &self.decoder;
+            let holds = |bytes: &[u8]| decoder.frame(bytes).is_some_and(|frame| frame.ok());
+            self.sent.count(reply, &arrives, holds);
+        }
     }
 
     /// Lets a zero input act when its time has come.

@@ -209,13 +209,18 @@ impl Session {
     pub fn rest(&mut self) {
         let bytes = core::mem::take(&mut self.received);
         self.skip(&bytes, Why::NoFrame);
-        // What comes after a rest does not continue what came before.
+        self.join();
+        self.state = State::Fresh;
+    }
+
+    /// Ends what has come of a stream, and joins it anew: what comes after a rest, or a silence, does
+    /// not continue what came before.
+    fn join(&mut self) {
         let mut framer = core::mem::replace(&mut self.framer, Framer::joining());
         let output = &mut self.output;
         framer.finish(&self.decoder, &mut |piece| {
             output.push_back(reported(&piece));
         });
-        self.state = State::Fresh;
     }
 
     /// The decoder that reads the replies.
@@ -290,6 +295,7 @@ impl Session {
         match self.state {
             State::Fresh if self.is_stream() => self.state = State::Listening(now + SILENCE),
             State::Listening(_) => {
+                self.join();
                 self.output.push_back(Output::Silent { echo: false });
                 self.state = State::Listening(now + SILENCE);
             }

@@ -11,6 +11,7 @@ import { chromium } from '@playwright/test';
 import KaitaiStructCompiler from 'kaitai-struct-compiler';
 import { parse } from 'yaml';
 import page from '../page/playwright.config.js';
+import { put } from './document.js';
 import { plot } from './plot.js';
 import { rows, sentences, table, targets } from './table.js';
 
@@ -183,11 +184,6 @@ if (!python) text.push('', 'Not measured: construct, which needs Python with pip
 console.log(text.join('\n'));
 
 if (writes) {
-  const path = 'docs/performance.md';
-  const [start, end] = ['<!-- measured -->', '<!-- end of measured -->'];
-  const page = await readFile(path, 'utf8');
-  const [before, rest] = page.split(start);
-  const after = rest.split(end)[1];
-  await writeFile(path, `${before}${start}\n\n${text.join('\n')}\n\n${end}${after}`);
+  await put('docs/performance.md', 'measured', text);
   await writeFile('docs/growth.svg', plot(found.growth));
 }

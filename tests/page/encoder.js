@@ -20,14 +20,12 @@ export class Encoder {
   static async start(...words) {
     const encoder = new Encoder();
     encoder.process = spawn(binary, words, { stdio: ['pipe', 'pipe', 'inherit'] });
+    // It may have pulled its plug before it is told something.
+    encoder.process.stdin.on('error', () => {});
     encoder.ended = new Promise((resolve) => encoder.process.once('exit', resolve));
-    const lines = createInterface({ input: encoder.process.stdout });
-    const [pty] = await Promise.race([
-      new Promise((resolve) => lines.once('line', (line) => resolve([line]))),
-      encoder.ended.then((code) => {
-        throw new Error(`the encoder ended with ${code}`);
-      }),
-    ]);
+    encoder.lines = createInterface({ input: encoder.process.stdout })[Symbol.asyncIterator]();
+    const { value: pty, done } = await encoder.lines.next();
+    if (done) throw new Error(`the encoder ended with ${await encoder.ended}`);
     execFileSync('mount', ['--bind', pty, port]);
     encoder.bound = true;
     return encoder;
@@ -38,11 +36,24 @@ export class Encoder {
     this.process.stdin.write(`${setting}\n`);
   }
 
-  /** Pulls the plug: the other end of the pty is gone. */
-  async unplug() {
-    this.process.stdin.end();
+  /** What it has sent and heard so far, and what it holds. */
+  async tell() {
+    this.set('tell');
+    return JSON.parse((await this.lines.next()).value);
+  }
+
+  /** Waits until it has pulled its own plug; returns what it tells in the end. */
+  async unplugged() {
     await this.ended;
     if (this.bound) execFileSync('umount', ['--lazy', port]);
     this.bound = false;
+    this.last ??= (await this.lines.next()).value;
+    return this.last && JSON.parse(this.last);
+  }
+
+  /** Pulls the plug: the other end of the pty is gone. */
+  unplug() {
+    this.process.stdin.end();
+    return this.unplugged();
   }
 }

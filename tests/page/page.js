@@ -45,6 +45,33 @@ export const expectOnlyLateFrames = async (page) =>
 export const expectOnlyLateBytes = async (page) =>
   expect(await number(page, 'bytes-skipped')).toBeLessThanOrEqual(64 * (await number(page, 'silent')));
 
+/** The bytes that came, by what has become of them. */
+export const bytes = (page) =>
+  page.evaluate(() => {
+    const of = (id) => Number(document.querySelector(`[data-testid="${id}"]`)?.dataset.value ?? 0);
+    return { all: of('bytes-in'), framed: of('bytes-framed'), skipped: of('bytes-skipped'), beside: of('bytes-set') };
+  });
+
+/** Once a link has ended, every byte that came is in a frame, skipped, or came beside reading. */
+export const expectAllAccounted = async (page) => {
+  const { all, framed, skipped, beside } = await bytes(page);
+  expect(all).toBeGreaterThan(0);
+  expect(framed + skipped + beside).toBe(all);
+  return all;
+};
+
+/** Ends reading. */
+export const disconnect = async (page) => {
+  await at(page, 'disconnect').click();
+  await expectLink(page, 'closed');
+};
+
+/** Reads what a link describes, at the port. */
+export const connect = async (page, query) => {
+  await page.goto(`/#/console?${query}`);
+  await at(page, 'connect').click();
+};
+
 /** The file that a button gives: its name and its text. */
 export const download = async (page, id) => {
   const [saved] = await Promise.all([page.waitForEvent('download'), at(page, id).click()]);

@@ -1,5 +1,5 @@
 // Bad days: ports that fail, hang and go away, over a scripted Web Serial.
-import { at, expect, expectLink, number, test, until } from './page.js';
+import { at, disconnect, expect, expectAllAccounted, expectLink, number, test, until } from './page.js';
 import { count, script, tell } from './scripted.js';
 
 const connect = async (page) => {
@@ -20,20 +20,6 @@ const expectReadingOn = async (page) => {
   await expectLink(page, 'reading');
   const frames = await number(page, 'frames-ok');
   await until(page, 'frames-ok', (now) => now > frames + 20);
-};
-
-/** Every byte is in a frame or skipped, once reading has ended. */
-const expectAllAccounted = async (page) => {
-  const [all, framed, skipped] = await Promise.all(
-    ['bytes-in', 'bytes-framed', 'bytes-skipped'].map((id) => number(page, id)),
-  );
-  expect(all).toBeGreaterThan(0);
-  expect(framed + skipped).toBe(all);
-};
-
-const disconnect = async (page) => {
-  await at(page, 'disconnect').click();
-  await expectLink(page, 'closed');
 };
 
 for (const error of ['BreakError', 'FramingError', 'ParityError', 'BufferOverrunError']) {

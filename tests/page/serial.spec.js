@@ -1,7 +1,10 @@
 // Real Web Serial in real Chromium, against the emulated encoder.
 import {
   at,
+  connect,
+  disconnect,
   expect,
+  expectAllAccounted,
   expectLink,
   expectOnlyLateBytes,
   expectOnlyLateFrames,
@@ -19,23 +22,6 @@ test.afterEach(async () => {
   await encoder?.unplug();
   encoder = undefined;
 });
-
-const connect = async (page, query) => {
-  await page.goto(`/#/console?${query}`);
-  await at(page, 'connect').click();
-};
-
-/** Bytes in are bytes in frames and bytes skipped, but for what is still being weighed. */
-const expectAllAccounted = async (page, most = 128) => {
-  await at(page, 'disconnect').click();
-  await expectLink(page, 'closed');
-  const [all, framed, skipped] = await Promise.all(
-    ['bytes-in', 'bytes-framed', 'bytes-skipped'].map((id) => number(page, id)),
-  );
-  expect(all).toBeGreaterThan(0);
-  expect(all - framed - skipped).toBeGreaterThanOrEqual(0);
-  expect(all - framed - skipped).toBeLessThan(most);
-};
 
 for (const [name, query] of [
   ['T485', 'format=t485&angle-bits=23&baud=2500000'],
@@ -92,6 +78,7 @@ for (const [name, query, angle] of [
     await expectLink(page, 'silent');
     encoder.set('silent=0');
     await expectLink(page, 'reading');
+    await disconnect(page);
     await expectAllAccounted(page);
     await encoder.unplug();
   });
@@ -147,6 +134,7 @@ test('an echoing adapter is read and named @serial', async ({ page }) => {
   await until(page, 'angle', (angle) => angle === 2 ** 22);
   await expect(page.getByText('the adapter echoes requests')).toBeVisible();
   await expectOnlyLateFrames(page);
+  await disconnect(page);
   await expectAllAccounted(page);
 });
 
@@ -162,6 +150,7 @@ test('noise is counted, and no wrong angle is shown as good @serial', async ({ p
   );
   expect(verdicts.length).toBeGreaterThan(0);
   for (const [ok, ticked] of verdicts) expect(ticked).toBe(ok);
+  await disconnect(page);
   await expectAllAccounted(page);
 });
 

@@ -1,6 +1,7 @@
 // Guided setting: with the demo encoder in any browser, and over real Web Serial.
 import { at, expect, expectLink, number, test, until } from './page.js';
 import { Encoder, options } from './encoder.js';
+import { spy } from './spy.js';
 
 let encoder;
 test.afterEach(async () => {
@@ -91,21 +92,13 @@ for (const [name, query, setting, angle] of [
   ['T485', 'format=t485&angle-bits=23', 'ResetAngle', 2 ** 21],
 ]) {
   test(`${name} is not set while the shaft moves, whoever asks @serial`, async ({ page }) => {
-    await page.addInitScript(() => {
-      const Real = window.Worker;
-      window.Worker = class extends Real {
-        constructor(...words) {
-          super(...words);
-          window.reader = this;
-        }
-      };
-    });
+    await spy(page);
     await plug(page, query, 'turning=0.5');
     await at(page, 'zero-start').click();
     await expect(at(page, 'gate')).toContainText('moves');
     await expect(at(page, 'zero-confirm')).toBeDisabled();
     // A message that no button has sent.
-    await page.evaluate((setting) => window.reader.postMessage({ Set: setting }), setting);
+    await page.evaluate((setting) => window.spied.engine.postMessage({ Set: setting }), setting);
     await expectOutcome(page, 'no');
     await expect(at(page, 'zero-outcome')).toContainText('Nothing was sent');
     expect(await at(page, 'zero-count').count()).toBe(0);
@@ -156,13 +149,4 @@ test('a setting that is stopped, or loses a reply, changes nothing @serial', asy
   encoder.set('silent=0');
   await expectLink(page, 'reading');
   await until(page, 'angle', (angle) => angle === 2 ** 22);
-});
-
-test('the plug pulled in the middle of a setting ends in a named state @serial', async ({ page }) => {
-  await plug(page, 'format=rs485&angle-bits=24&command=d', 'still=5.25');
-  await confirm(page, at(page, 'zero-start'));
-  await until(page, 'zero-count', (count) => count >= 2);
-  await encoder.unplug();
-  await expectLink(page, 'lost');
-  await expectOutcome(page, 'no');
 });

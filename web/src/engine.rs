@@ -133,6 +133,7 @@ impl Engine {
         let mut state = self.state.borrow_mut();
         match message {
             ToEngine::Next => state.wanted = true,
+            ToEngine::Ping => (state.post)(FromEngine::Pong),
             ToEngine::Log(filter) => state.tally.filter(filter),
             ToEngine::Open { .. }
             | ToEngine::Demo { .. }

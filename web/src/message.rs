@@ -49,6 +49,8 @@ pub enum ToEngine {
     Close,
     /// The page has drawn the last snapshot and wants the next.
     Next,
+    /// Is anybody there?
+    Ping,
 }
 
 /// What is to be changed in an encoder.
@@ -202,6 +204,8 @@ pub enum FromEngine {
         /// Whether it can reach serial ports itself.
         serial: bool,
     },
+    /// The answer to [`ToEngine::Ping`].
+    Pong,
     /// The state of the link and what it has read.
     Snapshot(Box<Snapshot>),
     /// The reading between snapshots.

@@ -22,6 +22,8 @@ pub struct Faults {
     pub flip: u32,
     /// Of 1000 reply bytes, how many get lost.
     pub drop: u32,
+    /// Of 1000 reply bytes, how many come twice.
+    pub double: u32,
     /// Of 1000 reply bytes, how many are followed by a stray byte.
     pub insert: u32,
     /// Of 1000 replies, how many get lost.
@@ -30,6 +32,40 @@ pub struct Faults {
     pub late: u32,
     /// Of 1000 replies, how many come twice.
     pub twice: u32,
+    /// Every reply comes so much later.
+    pub delay: Micros,
+    /// Every reply comes later by up to so much more, at random.
+    pub jitter: Micros,
+    /// Bytes of 0 that the line gives when the power comes back, before the encoder speaks.
+    pub zeros: usize,
+}
+
+/// What an encoder has sent over a serial line; a frame of a stream is a reply here.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sent {
+    /// Replies that arrive whole, whatever stands around them.
+    pub whole: u64,
+    /// Replies that do not.
+    pub damaged: u64,
+    /// Of those, the ones that are good frames all the same: no receiver can tell.
+    pub passing: u64,
+}
+
+impl Sent {
+    /// Counts a reply by what arrives of it.
+    pub(super) fn count(&mut self, reply: &[u8], arrives: &[u8], holds: impl Fn(&[u8]) -> bool) {
+        let mut rest = arrives;
+        let whole = |rest: &[u8]| rest.windows(reply.len()).position(|bytes| bytes == reply);
+        let before = self.whole;
+        while let Some(at) = whole(rest) {
+            self.whole += 1;
+            rest = &rest[at + reply.len()..];
+        }
+        if self.whole == before {
+            self.damaged += 1;
+            self.passing += u64::from(holds(arrives));
+        }
+    }
 }
 
 /// Bytes on their way to the host.
@@ -66,7 +102,7 @@ impl Wire {
     }
 
     /// Sends `echo` and `reply`, the last of whose bits leaves the wire `took` microseconds a byte
-    /// after `start`.
+    /// after `start`; returns what arrives of the reply.
     pub(super) fn send(
         &mut self,
         faults: &Faults,
@@ -74,33 +110,36 @@ impl Wire {
         baud: u32,
         echo: &[u8],
         reply: &[u8],
-    ) {
+    ) -> Vec<u8> {
         let on_wire = |count: usize| count as u64 * 10_000_000 / u64::from(baud);
         let mut line = Vec::from(echo);
-        let mut late = None;
+        let mut bytes = Vec::new();
+        let mut later = 0;
         if !reply.is_empty() && !self.chance(faults.lose) {
-            let mut bytes = self.disturbed(faults, reply);
+            bytes = self.disturbed(faults, reply);
             if self.chance(faults.twice) {
                 bytes.extend_from_within(..);
             }
             if let Some(rate) = faults.rate {
                 bytes = uart::heard(&bytes, baud, rate);
             }
-            if self.chance(faults.late) {
-                late = Some(bytes);
-            } else {
-                line.append(&mut bytes);
-            }
+            later = match self.chance(faults.late) {
+                true => LATE_BY,
+                false => faults.delay + self.up_to(faults.jitter),
+            };
+        }
+        if later == 0 {
+            line.extend_from_slice(&bytes);
+        } else if !bytes.is_empty() {
+            self.arrive(start + later + on_wire(bytes.len()), bytes.clone());
         }
         if !line.is_empty() {
             self.arrive(start + on_wire(line.len()), line);
         }
-        if let Some(bytes) = late.filter(|bytes| !bytes.is_empty()) {
-            self.arrive(start + LATE_BY + on_wire(bytes.len()), bytes);
-        }
+        bytes
     }
 
-    fn arrive(&mut self, at: Micros, bytes: Vec<u8>) {
+    pub(super) fn arrive(&mut self, at: Micros, bytes: Vec<u8>) {
         let behind = self.queue.iter().position(|(other, _)| *other > at);
         let index = behind.unwrap_or(self.queue.len());
         self.queue.insert(index, (at, bytes));
@@ -118,6 +157,9 @@ impl Wire {
             if !self.chance(faults.drop) {
                 line.push(byte);
             }
+            if self.chance(faults.double) {
+                line.push(byte);
+            }
             if self.chance(faults.insert) {
                 let stray = bits::low_byte(self.draw());
                 line.push(stray);
@@ -128,6 +170,13 @@ impl Wire {
 
     fn chance(&mut self, per_mille: u32) -> bool {
         per_mille > 0 && self.draw() % 1000 < u64::from(per_mille)
+    }
+
+    fn up_to(&mut self, most: Micros) -> Micros {
+        match most {
+            0 => 0,
+            most => self.draw() % (most + 1),
+        }
     }
 
     /// A linear congruential generator (Knuth's MMIX); its high half is random enough here.

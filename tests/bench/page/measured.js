@@ -1,22 +1,17 @@
 // What the measurements of the page share.
-import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
+import { Records } from '../records.js';
 
-const folder = new URL('../../../target/bench/page/', import.meta.url).pathname;
+const records = new Records('bench/page');
 
 /** Writes a line of the table: what was measured, the limit as text, the value as text, and whether it is met. */
 export const record = (area, what, limit, measured, met) => {
-  mkdirSync(folder, { recursive: true });
-  const name = `${area}-${what}`.replace(/[^a-z0-9]+/gi, '-').toLowerCase();
-  writeFileSync(`${folder}${name}.json`, JSON.stringify({ area, what, limit, measured, met, at: Date.now() }));
+  records.keep(`${area}-${what}`, { area, what, limit, measured, met });
   console.log(`${area}: ${what}: ${measured} (${limit}) ${met ? 'met' : 'missed'}`);
 };
 
 /** All lines, in the order in which they were measured. */
-export const recorded = () =>
-  readdirSync(folder)
-    .filter((name) => name.endsWith('.json'))
-    .map((name) => JSON.parse(readFileSync(`${folder}${name}`, 'utf8')))
-    .sort((one, other) => one.at - other.at);
+export const recorded = () => records.kept();
 
 /** The processes of the browser's renderers. */
 const ofRenderers = async (browser) => {

@@ -1,5 +1,5 @@
 // What was measured on the page as a table; with --write it goes into docs/performance.md.
-import { readFile, writeFile } from 'node:fs/promises';
+import { put } from '../document.js';
 import { recorded } from './measured.js';
 
 const lines = [
@@ -9,10 +9,4 @@ const lines = [
 ];
 console.log(lines.join('\n'));
 
-if (process.argv.includes('--write')) {
-  const path = 'docs/performance.md';
-  const [start, end] = ['<!-- measured on the page -->', '<!-- end of measured on the page -->'];
-  const text = await readFile(path, 'utf8');
-  const [before, rest] = text.split(start);
-  await writeFile(path, `${before}${start}\n\n${lines.join('\n')}\n\n${end}${rest.split(end)[1]}`);
-}
+if (process.argv.includes('--write')) await put('docs/performance.md', 'measured on the page', lines);

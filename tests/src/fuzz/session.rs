@@ -242,7 +242,7 @@ impl Line {
             lose: rated(5),
             late: if alone { rated(6) } else { 0 },
             twice: if alone { rated(7) } else { 0 },
-            rate: None,
+            ..Faults::default()
         };
     }
 

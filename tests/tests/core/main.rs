@@ -38,6 +38,7 @@ mod laws_formats;
 mod laws_profiles;
 mod laws_ssi;
 mod layouts;
+mod line;
 mod order_codes;
 mod order_codes_meaning;
 mod own;

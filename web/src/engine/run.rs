@@ -22,6 +22,10 @@ use encoderscope::{
 /// So late a step is only made after the tab was frozen or the machine asleep.
 const ASLEEP: Micros = 1_000_000;
 
+/// How a setting ends that is broken off before its first command.
+pub(super) const UNBEGUN: &str =
+    "Stopped: it was broken off. Nothing was sent that changes an encoder.";
+
 /// An open link.
 pub(super) struct Run {
     /// What reads; nothing while an encoder is searched for.
@@ -265,12 +269,17 @@ impl Run {
 
     /// The link is going away: a sequence ends here, and every byte is accounted for.
     pub(super) fn abandon(&mut self, tally: &mut Tally) {
-        self.rest(self.looked, tally);
-        if let Some(Talk::Set(_, runner)) = &mut self.talk {
-            runner.stop();
-            while let Some(event) = runner.poll_output() {
-                tally.follow(self.looked, &event);
+        let now = self.looked;
+        self.rest(now, tally);
+        match &mut self.talk {
+            Some(Talk::Set(_, runner)) => {
+                runner.stop();
+                while let Some(event) = runner.poll_output() {
+                    tally.follow(now, &event);
+                }
             }
+            Some(Talk::Scan(_, After::Set(setting))) => tally.refuse(now, *setting, UNBEGUN),
+            _ => {}
         }
     }
 

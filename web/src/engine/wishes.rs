@@ -2,7 +2,7 @@
 
 use super::{
     DEMO_INTERVAL, Engine, SNAPSHOTS, State,
-    run::{Run, Todo, Wire},
+    run::{Run, Todo, UNBEGUN, Wire},
     talk::{After, Talk},
 };
 use crate::{
@@ -149,8 +149,7 @@ impl State {
         match &mut run.talk {
             Some(Talk::Set(_, runner)) => runner.stop(),
             Some(Talk::Scan(_, After::Set(setting))) => {
-                let why = "Stopped: it was broken off. Nothing was sent that changes an encoder.";
-                self.tally.refuse(now(), *setting, why);
+                self.tally.refuse(now(), *setting, UNBEGUN);
                 run.talk = None;
             }
             Some(Talk::Scan(_, After::Read)) => run.talk = None,

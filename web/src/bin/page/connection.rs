@@ -9,9 +9,13 @@ use encoderscope_web::{
 };
 use js_sys::Array;
 use leptos::prelude::*;
-use std::{cell::RefCell, rc::Rc};
+use std::{cell::RefCell, rc::Rc, time::Duration};
 use wasm_bindgen::{JsCast, JsValue, prelude::Closure};
 use web_sys::MessageEvent;
+
+/// A worker is asked every second whether it is there; one that has not answered so often is gone.
+/// A browser that ends a worker says nothing.
+const UNANSWERED: u32 = 10;
 
 /// Sends messages to the engine; clones share one engine.
 #[derive(Clone)]
@@ -38,6 +42,8 @@ struct Inner {
     seat: Seat,
     /// What was said before the engine ran; nothing from then on.
     waiting: Option<Vec<JsValue>>,
+    /// How often a worker was asked since it spoke last.
+    unanswered: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +67,7 @@ impl Connection {
                 engine: None,
                 seat: Seat::Worker,
                 waiting: Some(Vec::new()),
+                unanswered: 0,
             })),
             workers,
             snapshot,
@@ -85,6 +92,26 @@ impl Connection {
         worker.set_broken(Some(on_error.as_ref().unchecked_ref()));
         on_error.forget();
         self.inner.borrow_mut().engine = Some(worker);
+        let watching = self.clone();
+        set_interval(move || watching.watch(broken), Duration::from_secs(1));
+    }
+
+    /// Sees to it that the worker is there, once it has begun.
+    fn watch(&self, broken: RwSignal<bool>) {
+        let unanswered = {
+            let mut inner = self.inner.borrow_mut();
+            if inner.seat == Seat::Page || inner.waiting.is_some() {
+                return;
+            }
+            inner.unanswered += 1;
+            inner.unanswered
+        };
+        if unanswered <= UNANSWERED {
+            self.send(&ToEngine::Ping);
+        } else {
+            self.run_here();
+            broken.set(true);
+        }
     }
 
     fn listen(&self, engine: &Peer) {
@@ -102,6 +129,7 @@ impl Connection {
     }
 
     fn receive(&self, message: FromEngine) {
+        self.inner.borrow_mut().unanswered = 0;
         match message {
             // Where the page could reach a port and the worker cannot, the engine runs here.
             FromEngine::Hello { serial: false }
@@ -110,6 +138,7 @@ impl Connection {
                 self.run_here();
             }
             FromEngine::Hello { .. } => self.ready(),
+            FromEngine::Pong => {}
             FromEngine::Reading(reading) => {
                 self.show(Some(reading));
                 self.want_next();
