@@ -1,5 +1,5 @@
 # Everything that is missing is installed by the scripts; what they may not install they name.
-.PHONY: serve test bench fuzz dist pack docs fmt clean
+.PHONY: serve test bench fuzz dist single pack docs fmt clean
 
 serve: dist
 	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
@@ -17,6 +17,9 @@ fuzz:
 
 dist:
 	@web/build.sh
+
+single: dist
+	@node web/single/build.js
 
 pack:
 	@web/package.sh

@@ -32,6 +32,7 @@ WASM_BINDGEN_TEST_TIMEOUT=600 wasm_cargo test --profile browser -p encoderscope-
 
 say "the page"
 web/build.sh
+node web/single/build.js
 cargo build -q -p encoderscope-tests --bin pty-encoder
 tests/page/run.sh
 

@@ -104,6 +104,8 @@ pub(crate) struct App {
     broken: RwSignal<bool>,
     /// A port was plugged in a moment ago.
     pub(crate) just_plugged: RwSignal<bool>,
+    /// A recording runs; a new version of the page must not end it.
+    pub(crate) recording: RwSignal<bool>,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
@@ -134,6 +136,7 @@ impl App {
             owner: StoredValue::new(Owner::current().unwrap_or_default()),
             broken,
             just_plugged: RwSignal::new(false),
+            recording: RwSignal::new(false),
             connection: StoredValue::new_local(connection),
         }
     }

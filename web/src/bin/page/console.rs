@@ -45,9 +45,23 @@ fn Preview() -> impl IntoView {
     }
 }
 
+/// The browser is told of recordings: once, for they go on while other areas are shown.
+#[derive(Clone, Copy)]
+struct Told;
+
+fn tell_of_recordings(app: App) -> Told {
+    Effect::new(move || {
+        let runs = app.recording.get();
+        app.workers.with_value(|workers| workers.recording(runs));
+    });
+    Told
+}
+
 /// What is shown of an encoder that is read.
 #[component]
 pub(crate) fn Live() -> impl IntoView {
+    let app = expect_context::<App>();
+    app.keep(|| tell_of_recordings(app));
     view! {
         <LinkPanel />
         <div class="stage">
