@@ -16,18 +16,23 @@ export const options = (query) =>
   [...new URLSearchParams(query)].flatMap(([name, value]) => [`--${name}`, value]);
 
 export class Encoder {
-  /** Starts an encoder: profile parameters as options, then settings. */
+  /**
+   * Starts an encoder: profile parameters as options, then settings; with `tell=1` the bytes that
+   * come in are in `heard`.
+   */
   static async start(...words) {
     const encoder = new Encoder();
     encoder.process = spawn(binary, words, { stdio: ['pipe', 'pipe', 'inherit'] });
     encoder.ended = new Promise((resolve) => encoder.process.once('exit', resolve));
     const lines = createInterface({ input: encoder.process.stdout });
+    encoder.heard = [];
     const [pty] = await Promise.race([
       new Promise((resolve) => lines.once('line', (line) => resolve([line]))),
       encoder.ended.then((code) => {
         throw new Error(`the encoder ended with ${code}`);
       }),
     ]);
+    lines.on('line', (line) => encoder.heard.push(...Buffer.from(line, 'hex')));
     execFileSync('mount', ['--bind', pty, port]);
     encoder.bound = true;
     return encoder;

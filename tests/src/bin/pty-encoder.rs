@@ -8,7 +8,8 @@
 //! `drop=N`, `insert=N` (N of 1000 reply bytes), `lose=N`, `late=N`, `twice=N` (N of 1000
 //! replies). `exclusive=0` lets another program open the pty, as the last close of a real port does;
 //! this one is held open here. `interval=MICROSECONDS` lets a stream send so often, and `patient=1`
-//! lets its bytes wait for a reader. `device=ADDRESS` puts another encoder on the BUS; settings behind it
+//! lets its bytes wait for a reader. `tell=1` prints what comes in, a line of hexadecimal digits at a time.
+//! `device=ADDRESS` puts another encoder on the BUS; settings behind it
 //! are for that one. The adapter runs at the baud rate that the browser has asked for: at another
 //! rate than the encoder's both sides hear what a UART makes of it. The end of standard input pulls the plug. What a stream sends while nobody reads is
 //! lost.
@@ -66,7 +67,13 @@ mod native {
         tcsetattr(&slave, OptionalActions::Now, &raw)?;
         println!("{}", path.to_str()?);
         std::io::stdout().flush()?;
-        serve(&mut line, &master, &slave, patience(&settings))
+        serve(
+            &mut line,
+            &master,
+            &slave,
+            patience(&settings),
+            hearing(&settings),
+        )
     }
 
     /// What becomes of bytes that nobody reads.
@@ -74,6 +81,20 @@ mod native {
     enum Unread {
         Lost,
         Waits,
+    }
+
+    /// Whether what comes in is printed.
+    #[derive(Clone, Copy, PartialEq, Eq)]
+    enum Heard {
+        Told,
+        Kept,
+    }
+
+    fn hearing(settings: &[String]) -> Heard {
+        match settings.iter().any(|setting| setting == "tell=1") {
+            true => Heard::Told,
+            false => Heard::Kept,
+        }
     }
 
     fn patience(settings: &[String]) -> Unread {
@@ -119,7 +140,7 @@ mod native {
             "turning" => emulator.shaft = Shaft::turning(emulator.shaft.start, value.parse()?),
             "still" => emulator.shaft = Shaft::still(value.parse()?),
             "interval" => emulator.interval = Some(value.parse()?),
-            "patient" => {}
+            "patient" | "tell" => {}
             "noise" => emulator.noise = value.parse()?,
             "status" => emulator.status = value.parse()?,
             "error" => emulator.error = value == "1",
@@ -150,6 +171,7 @@ mod native {
         master: &OwnedFd,
         slave: &OwnedFd,
         unread: Unread,
+        heard: Heard,
     ) -> Result<(), Box<dyn Error>> {
         let start = Instant::now();
         let stdin = std::io::stdin();
@@ -185,6 +207,9 @@ mod native {
             let (input, command) = (ready[0].revents(), ready[1].revents());
             if input.contains(PollFlags::IN) {
                 let count = read(master, &mut buffer)?;
+                if heard == Heard::Told {
+                    println!("{}", encoderscope::record::hex(&buffer[..count]));
+                }
                 let now = start.elapsed().as_micros() as u64;
                 line.handle_input(now, &buffer[..count]);
             }
