@@ -1,5 +1,5 @@
 # Everything that is missing is installed by the scripts; what they may not install they name.
-.PHONY: serve test bench fuzz dist single pack docs fmt clean
+.PHONY: serve test audit bench fuzz dist single pack docs fmt clean
 
 serve: dist
 	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
@@ -7,6 +7,9 @@ serve: dist
 
 test:
 	@tests/run.sh
+
+audit:
+	@tests/audit.sh
 
 bench:
 	@tests/bench/run.sh $(if $(WRITE),--write)

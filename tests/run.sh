@@ -27,6 +27,9 @@ RUSTDOCFLAGS="-D warnings" cargo doc -q --no-deps -p encoderscope
 say "the core, native"
 cargo test -p encoderscope -p encoderscope-tests
 
+say "licences and sources"
+node tests/licences.mjs
+
 say "the core, in headless Chromium"
 WASM_BINDGEN_TEST_TIMEOUT=600 wasm_cargo test --profile browser -p encoderscope-tests --test core
 

@@ -169,6 +169,22 @@ test('nothing in a link is run, whatever parameter it is', async ({ page }) => {
     await open(page, `#/${area}?${all.join('&')}`);
     await expectUnharmed(page, area);
   }
+  // The pages of the reference have inputs of their own, which links fill in.
+  await open(page, '#/reference');
+  const pages = await page
+    .locator('.reference .list > div > ul > li > a')
+    .evaluateAll((links) => links.map((link) => link.getAttribute('href')));
+  for (const href of pages) {
+    await page.evaluate((href) => (location.hash = href), href);
+    await page.waitForTimeout(50);
+    const inputs = await page
+      .locator('.reference :is(input, select, textarea)[name]')
+      .evaluateAll((all) => all.map(({ name }) => name));
+    const filled = inputs.map((name) => `${name}=${encodeURIComponent(hostile)}`).join('&');
+    await page.evaluate((link) => (location.hash = link), `${href}${href.includes('?') ? '&' : '?'}${filled}`);
+    await page.waitForTimeout(50);
+    await expectUnharmed(page, href);
+  }
   await open(page, `#/${encodeURIComponent(hostile)}?${encodeURIComponent(hostile)}=1`);
   await expectUnharmed(page, 'area');
   // Where what a stranger wrote is shown, it is text.

@@ -90,5 +90,9 @@ pub fn encode(text: &str) -> String {
 
 fn decode(text: &str) -> String {
     let spaced = text.replace('+', " ");
+    // A link of a stranger may have a million parameters; asking the browser takes its time.
+    if !spaced.contains('%') {
+        return spaced;
+    }
     js_sys::decode_uri_component(&spaced).map_or(spaced, Into::into)
 }
