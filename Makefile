@@ -1,5 +1,5 @@
 # Everything that is missing is installed by the scripts; what they may not install they name.
-.PHONY: serve test reliability soak bench fuzz dist pack docs fmt clean
+.PHONY: serve test reliability soak audit bench fuzz dist single pack docs fmt clean
 
 serve: dist
 	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
@@ -14,6 +14,9 @@ reliability: dist
 soak: dist
 	@tests/reliability/soak.sh $(or $(SECONDS),3600)
 
+audit:
+	@tests/audit.sh
+
 bench:
 	@tests/bench/run.sh $(if $(WRITE),--write)
 	@tests/bench/page/run.sh $(if $(WRITE),--write)
@@ -23,6 +26,9 @@ fuzz:
 
 dist:
 	@web/build.sh
+
+single: dist
+	@node web/single/build.js
 
 pack:
 	@web/package.sh

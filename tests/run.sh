@@ -28,11 +28,15 @@ RUSTDOCFLAGS="-D warnings" cargo doc -q --no-deps -p encoderscope --features pca
 say "the core, native"
 cargo test -p encoderscope -p encoderscope-tests
 
+say "licences and sources"
+node tests/licences.mjs
+
 say "the core, in headless Chromium"
 WASM_BINDGEN_TEST_TIMEOUT=600 wasm_cargo test --profile browser -p encoderscope-tests --test core
 
 say "the page"
 web/build.sh
+node web/single/build.js
 cargo build -q -p encoderscope-tests --bin pty-encoder
 tests/page/run.sh
 

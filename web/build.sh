@@ -74,10 +74,9 @@ sum() { # files
   echo $total
 }
 
-if outdated dist/index.html index.html vite.config.js web/icon.svg "${sources[@]}" || outdated dist/encoder-frame.js $npm/encoder-frame.js; then
+if outdated dist/index.html index.html vite.config.js web/icon.svg web/icons $npm "${sources[@]}"; then
   say "bundling into dist/"
   npx vite build --logLevel warn
-  cp $npm/encoder-frame* dist
 fi
 
 # Every page of a document that shows a frame waits for the element, and every visitor for the

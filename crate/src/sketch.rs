@@ -39,6 +39,9 @@ use alloc::{borrow::Cow, format, string::String, vec::Vec};
 /// How long an encoder is listened to, in microseconds: longer than any reply takes.
 const LISTEN: Micros = 100_000;
 
+/// Most bits of a frame: no format's comes near it, and who shows one shows every bit.
+const MOST_BITS: usize = 1024;
+
 /// What checks do when something else is changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Checks {
@@ -91,11 +94,21 @@ impl Sketch {
     /// # Errors
     ///
     /// It has the length of no frame of the profile.
+    ///
+    /// ```
+    /// use encoderscope::{decode::Decoder, format::Format, sketch::Sketch};
+    /// let decoder = Decoder::new(Format::Ssi.default_profile())?;
+    /// assert!(Sketch::parse(decoder, &"10".repeat(30_000), None).is_err());
+    /// # Ok::<(), encoderscope::profile::ProfileError>(())
+    /// ```
     pub fn read(
         decoder: Decoder,
         bits: BitString,
         direction: Option<Direction>,
     ) -> Result<Self, Why> {
+        if bits.as_bits().len() > MOST_BITS {
+            return Err(Why::NoFrame);
+        }
         let kind = FrameKind::of(&decoder, bits.as_bits(), direction)?;
         Ok(Self {
             decoder,

@@ -1,8 +1,16 @@
 // What the page tests share.
 import { test as base, expect } from '@playwright/test';
 
+/** A browser without service workers: what tests do to the page's requests is not kept from them. */
+export const bare = base.extend({
+  context: async ({ context }, use) => {
+    await context.addInitScript(() => delete Navigator.prototype.serviceWorker);
+    await use(context);
+  },
+});
+
 /** A page whose errors fail the test, and that may talk to nobody but its own server. */
-export const test = base.extend({
+export const test = bare.extend({
   page: async ({ page }, use) => {
     const errors = [];
     page.on('pageerror', (error) => errors.push(`${error}`));

@@ -1,6 +1,5 @@
 // The parts of the page whose code comes when they are first wanted.
-import { test as bare } from '@playwright/test';
-import { at, expect, expectLink, test, until } from './page.js';
+import { at, bare, expect, expectLink, test, until } from './page.js';
 
 const part = (name) => `**/split_${name}-*.wasm`;
 const frame = 'format=t485&direction=received&frame=1a2029c03b17000000c837';

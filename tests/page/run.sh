@@ -24,6 +24,6 @@ exec "${enter[@]}" bash -c '
   # A fresh directory over the real one: this browser alone may open the port unasked.
   mount -t tmpfs tmpfs /etc/chromium
   mkdir -p /etc/chromium/policies/managed
-  echo "{\"SerialAllowAllPortsForUrls\": [\"http://localhost:8089\"]}" >/etc/chromium/policies/managed/encoderscope.json
+  echo "{\"SerialAllowAllPortsForUrls\": [\"http://localhost:8089\", \"file:///\"]}" >/etc/chromium/policies/managed/encoderscope.json
   exec npx playwright test --config "$PAGE_CONFIG" "$@"
 ' page-tests "$@"

@@ -1,6 +1,6 @@
-// Starts the page; what the bundler finds only in JavaScript is made here.
-import init, { start } from '../pkg/page/page.js';
-import parts from '../style/parts.css?url';
+// Starts the page; what the bundler finds only in JavaScript is made here and in `site.js`.
+import { start } from '../pkg/page/page.js';
+import { desk, engine, page, recording, styled } from './site.js';
 
 // A browser that keeps nothing has no stored theme; reading it may even be forbidden.
 let stored;
@@ -10,16 +10,13 @@ try {
 const dark = matchMedia('(prefers-color-scheme: dark)').matches;
 document.documentElement.dataset.theme = stored ?? (dark ? 'dark' : 'light');
 
-// The first view is there without the style of the others.
-const style = Object.assign(document.createElement('link'), { rel: 'stylesheet', href: parts });
-const styled = new Promise((resolve) => Object.assign(style, { onload: resolve, onerror: resolve }));
-document.head.append(style);
 const first = /^#?\/?(console|$)/.test(location.hash);
 
-await Promise.all([init(), first || styled]);
+await Promise.all([page, first || styled]);
 start({
-  engine: () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'engine' }),
-  desk: () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'desk' }),
+  engine,
+  desk,
+  recording,
   engineHere: async () => {
     const { default: initModule, serve } = await import('../pkg/encoderscope.js');
     await initModule();

@@ -20,9 +20,10 @@
 //! has been read.
 //!
 //! `tell` prints what it knows as a line of JSON, and so does the plug when it is pulled: bytes
-//! `heard`, those `changing` that are part of a command that changes an encoder, bytes `sent`, bytes
-//! `unread` that were lost because nobody read, replies sent `whole` and `damaged` and those
-//! `passing` for good, and what the encoder holds: `turns`, `angle`, `address`, `error`, `memory`.
+//! `heard`, their `kinds` (each byte once), those `changing` that are part of a command that changes
+//! an encoder, bytes `sent`, bytes `unread` that were lost because nobody read, replies sent `whole`
+//! and `damaged` and those `passing` for good, and what the encoder holds: `turns`, `angle`,
+//! `address`, `error`, `memory`.
 
 #[cfg(target_arch = "wasm32")]
 fn main() {}
@@ -47,7 +48,7 @@ mod native {
         pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt},
         termios::{OptionalActions, ioctl_tiocnxcl, tcgetattr, tcsetattr},
     };
-    use std::{error::Error, io::Write, os::fd::OwnedFd, time::Instant};
+    use std::{collections::BTreeSet, error::Error, io::Write, os::fd::OwnedFd, time::Instant};
 
     pub(crate) fn run() -> Result<(), Box<dyn Error>> {
         let (parameters, settings) = arguments()?;
@@ -100,6 +101,7 @@ mod native {
     #[derive(Default)]
     struct Counts {
         heard: u64,
+        kinds: BTreeSet<u8>,
         changing: u64,
         sent: u64,
         unread: u64,
@@ -108,6 +110,7 @@ mod native {
     impl Counts {
         fn hear(&mut self, profile: &Profile, bytes: &[u8]) {
             self.heard += bytes.len() as u64;
+            self.kinds.extend(bytes);
             let changing = |byte: &&u8| danger(profile, &[**byte]).is_some();
             self.changing += bytes.iter().filter(changing).count() as u64;
         }
@@ -115,6 +118,7 @@ mod native {
         fn tell(&self, line: &Bus, now: Micros) -> Result<(), Box<dyn Error>> {
             let Self {
                 heard,
+                kinds,
                 changing,
                 sent,
                 unread,
@@ -132,7 +136,7 @@ mod native {
                 .map_while(|cell| encoder.memory(cell))
                 .collect();
             println!(
-                "{{\"heard\":{heard},\"changing\":{changing},\"sent\":{sent},\"unread\":{unread},\
+                "{{\"heard\":{heard},\"kinds\":{kinds:?},\"changing\":{changing},\"sent\":{sent},\"unread\":{unread},\
                  \"whole\":{whole},\"damaged\":{damaged},\"passing\":{passing},\
                  \"turns\":{turns},\"angle\":{angle},\"address\":{address},\"error\":{error},\
                  \"memory\":{memory:?}}}"

@@ -246,7 +246,8 @@ impl App {
         }
     }
 
-    /// Lets the console run with the profile that is shown.
+    /// Lets the console run with the profile that is shown: the demo by itself, a port only when
+    /// the user says so, for the profile may be that of a link or a file.
     fn follow_profile(self) {
         let shown = self.profile.get();
         if self.area.get() != Area::Console {
@@ -255,14 +256,13 @@ impl App {
         let running = self.running.get_untracked();
         match self.source.get_untracked() {
             Source::Port if running == Some(shown) => {}
-            Source::Port
-                if self
-                    .snapshot
-                    .with_untracked(|snapshot| snapshot.link.is_open()) =>
-            {
-                self.connect();
+            Source::Port => {
+                if self.reads_port() {
+                    self.disconnect();
+                    self.obstacle.set(Some(Obstacle::OtherSettings));
+                }
             }
-            Source::Port | Source::Replay => {}
+            Source::Replay => {}
             Source::Demo | Source::Preview if running == Some(self.readable()) => {}
             source => self.demo(source),
         }

@@ -56,6 +56,9 @@ extern "C" {
     /// What plots are drawn with.
     #[wasm_bindgen(method, catch)]
     async fn charts(this: &Workers) -> Result<JsValue, JsValue>;
+    /// Whether a recording runs: until it ends, no new version of the page is taken into use.
+    #[wasm_bindgen(method)]
+    fn recording(this: &Workers, runs: bool);
 }
 
 /// Mounts the page.

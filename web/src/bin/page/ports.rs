@@ -2,7 +2,7 @@
 
 use crate::{
     adapters,
-    app::{App, Source},
+    app::{App, Area, Source},
 };
 use encoderscope::{adapter::Made, explain::grouped, format::Link as Way, profile::Profile};
 use encoderscope_web::{
@@ -29,6 +29,8 @@ pub(crate) enum Obstacle {
     NotPluggedIn,
     /// The adapter does not make the baud rate; the nearest that it makes.
     RateNotMade(f64),
+    /// The settings have changed, and not on the console.
+    OtherSettings,
     /// The engine broke down.
     BrokeDown,
     /// What the browser says.
@@ -54,6 +56,7 @@ impl Obstacle {
             Self::NothingChosen => "nothing-chosen",
             Self::NotPluggedIn => "not-plugged-in",
             Self::RateNotMade(_) => "rate-not-made",
+            Self::OtherSettings => "other-settings",
             Self::BrokeDown => "broke-down",
             Self::Other(_) => "no-port",
         }
@@ -87,6 +90,9 @@ impl Obstacle {
                      adapter that makes the rate.",
                     grouped(*nearest as u64)
                 );
+            }
+            Self::OtherSettings => {
+                "A link or another page has changed the settings. Connect to read with them."
             }
             Self::BrokeDown => "The reader broke down. Connect again.",
             Self::Other(text) => text,
@@ -179,6 +185,32 @@ impl App {
         }
     }
 
+    /// Takes over a profile that the user has chosen on the console; reading goes on with it.
+    pub(crate) fn choose_profile(self, profile: Profile) {
+        let reads = self.area.get_untracked() == Area::Console && self.reads_port();
+        if reads {
+            self.running.set(Some(profile));
+        }
+        self.change_profile(profile);
+        if reads {
+            self.connect();
+        }
+    }
+
+    /// Whether a port is open, or being opened.
+    pub(crate) fn reads_port(self) -> bool {
+        self.source.get_untracked() == Source::Port
+            && self
+                .snapshot
+                .with_untracked(|snapshot| snapshot.link.is_open())
+    }
+
+    /// Whether what was read before the plug was pulled out is what would be read now.
+    fn was_reading(self) -> bool {
+        self.source.get_untracked() == Source::Port
+            && self.running.get_untracked() == Some(self.profile.get_untracked())
+    }
+
     fn open(self, port: PortId) {
         self.obstacle.set(None);
         self.port.set(Some(port));
@@ -208,7 +240,7 @@ impl App {
         let lost = self
             .snapshot
             .with_untracked(|snapshot| snapshot.link == Link::Lost);
-        if lost && self.source.get_untracked() == Source::Port {
+        if lost && self.was_reading() {
             self.connect();
         } else {
             leptos::task::spawn_local(self.refresh_ports());
@@ -223,7 +255,7 @@ impl App {
     /// Reads on where the news of a plug put back has overtaken that of its being pulled out.
     pub(crate) fn follow_plug(self) {
         let lost = self.snapshot.with(|snapshot| snapshot.link == Link::Lost);
-        if lost && self.just_plugged.get() && self.source.get_untracked() == Source::Port {
+        if lost && self.just_plugged.get() && self.was_reading() {
             self.just_plugged.set(false);
             self.connect();
         }
@@ -231,16 +263,14 @@ impl App {
 
     /// Chooses a port, and the encoder that was behind it last.
     pub(crate) fn choose_port(self, port: PortId) {
-        let open = self
-            .snapshot
-            .with_untracked(|snapshot| snapshot.link.is_open());
+        let reads = self.reads_port();
         self.port.set(Some(port));
         self.any_rate.set(false);
         if let Some(profile) = adapters::recall(port) {
             self.change_profile(profile);
         }
         // What is shown as chosen is what settings go to.
-        if open && self.source.get_untracked() == Source::Port {
+        if reads {
             self.open(port);
         }
     }

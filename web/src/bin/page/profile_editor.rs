@@ -71,7 +71,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
     {
         Ok(new) => {
             fault.set(None);
-            app.change_profile(new);
+            app.choose_profile(new);
         }
         Err(error) => fault.set(Some(error.to_string())),
     };
@@ -83,7 +83,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
                 known => Some(known.default_profile()),
             };
             if let Some(new) = new {
-                app.change_profile(new);
+                app.choose_profile(new);
             }
         }
     };
@@ -100,7 +100,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
             }
             Ok(new) => {
                 fault.set(None);
-                app.change_profile(new);
+                app.choose_profile(new);
             }
             Err(error) => fault.set(Some(error.to_string())),
         }

@@ -81,6 +81,9 @@ impl Recordings {
                 let runs = state.recording.as_ref().is_some_and(|one| one.runs);
                 if self.app.recording.get_untracked() != runs {
                     self.app.recording.set(runs);
+                    self.app
+                        .workers
+                        .with_value(|workers| workers.recording(runs));
                 }
                 self.state.set(state);
                 match replayed {
