@@ -108,6 +108,7 @@ test('a BUS device is read at its own address @serial', async ({ page }) => {
   expect(await number(page, 'turns')).toBe(7);
   await expect(at(page, 'status').locator('[data-now=true]')).toContainText('field too weak');
   await page.goto('/#/console?format=bus&address=6');
+  await at(page, 'connect').click();
   await expectLink(page, 'silent');
 });
 
@@ -165,6 +166,7 @@ test('silence, an echo alone and a wrong profile have names and remedies @serial
   await expectLink(page, 'reading');
   // A T485 encoder answers an unknown operation, but not with what RS485 expects.
   await page.goto('/#/console?format=rs485&turns-bits=0&command=1');
+  await at(page, 'connect').click();
   await expectLink(page, 'garbage');
   await expect(at(page, 'link-state')).toContainText('order code');
 });
