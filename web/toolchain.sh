@@ -95,6 +95,6 @@ fi
 
 if [ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modules/.package-lock.json ]; then
   say "installing npm packages"
-  npm ci --no-audit --no-fund --loglevel=error
-  touch node_modules/.package-lock.json
+  npm ci --no-audit --no-fund --loglevel=error &&
+    touch node_modules/.package-lock.json
 fi

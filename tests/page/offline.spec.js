@@ -143,17 +143,20 @@ test.describe('a new version', () => {
     await expect(at(page, 'update')).toHaveCount(0);
   });
 
-  /** Lets a page record; the page itself holds the same lock. */
-  const record = (page) =>
-    page.evaluate(() => {
-      navigator.locks.request('recording', { mode: 'shared' }, () => new Promise((end) => (window.end = end)));
-    });
-  const end = (page) => page.evaluate(() => window.end());
+  const record = async (page) => {
+    await at(page, 'record').click();
+    await expect(at(page, 'record')).toHaveText('Stop recording');
+  };
+  const end = async (page) => {
+    await at(page, 'record').click();
+    await expect(at(page, 'record')).toHaveText('Record');
+  };
 
   test('waits for a recording, in whatever tab it runs', async ({ page, context, site }) => {
     test.setTimeout(90_000);
     const other = await context.newPage();
     await other.goto('/');
+    await at(other, 'demo').click();
     await record(other);
     await visits(page, site);
     await expect(at(page, 'update-now')).toBeDisabled();
