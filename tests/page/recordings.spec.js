@@ -245,7 +245,7 @@ test('two recordings are compared', async ({ page }) => {
   await until(page, 'recorded', (size) => size > 60_000);
   await stop(page);
   await page.getByText('Demo status and faults').click();
-  await page.locator('input[name="demo-flip"]').fill('50');
+  await page.locator('input[name="demo-flip"]').fill('5');
   await until(page, 'frames-bad', (frames) => frames > 5);
   await record(page);
   await until(page, 'recorded', (size) => size > 60_000);

@@ -151,6 +151,7 @@ impl Engine {
     /// Lets the link go on, posts a snapshot, and does what a search wants.
     fn pump(&self) {
         let todo = self.state.borrow_mut().pump();
+        self.list_ended();
         match todo {
             None => {}
             Some(Todo::Feed) => self.feed(),

@@ -123,6 +123,7 @@ mod native {
                 sent,
                 unread,
             } = self;
+            let kinds: Vec<u8> = kinds.iter().copied().collect();
             let all = |count: fn(&Sent) -> u64| -> u64 {
                 line.devices.iter().map(|one| count(one.sent())).sum()
             };

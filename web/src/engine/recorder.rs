@@ -32,6 +32,8 @@ pub(super) struct Recorder {
     running: Option<Running>,
     /// How the last one stands or has ended.
     last: Option<Recording>,
+    /// One has ended since the page was told which there are.
+    ended: bool,
     /// Recordings that are nowhere but in memory.
     in_memory: Vec<(String, Blob)>,
     told: RecorderState,
@@ -139,7 +141,13 @@ impl Engine {
     /// Ends the recording that runs.
     pub(super) fn stop_recording(&self) {
         self.state.borrow_mut().end_recording(None);
-        self.list();
+    }
+
+    /// Tells the page which recordings there are, when one has ended.
+    pub(super) fn list_ended(&self) {
+        if std::mem::take(&mut self.state.borrow_mut().recorder.ended) {
+            self.list();
+        }
     }
 
     /// Lets a recording go.
@@ -321,6 +329,7 @@ impl State {
         let Some(mut running) = self.recorder.running.take() else {
             return;
         };
+        self.recorder.ended = true;
         let why = fault.as_deref().unwrap_or("stopped");
         let rest = self.tally.transcript().end(now, why);
         if matches!(running.sink, Sink::Coming) {
