@@ -127,6 +127,7 @@ export const EVENTS = [
     final: true,
     meanwhile: async ({ page }) => {
       await jump(page, 3_600_000);
+      await page.waitForTimeout(1_000);
       await expectMore(page);
     },
   },

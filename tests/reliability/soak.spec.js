@@ -91,7 +91,6 @@ test('soak @serial', async ({ page, browser }) => {
   while (elapsed() < seconds) {
     const name = among(ALL);
     trial = await Trial.begin(page, name);
-    busy ??= await Busy.begin(page, browser);
     await at(page, 'chart-angle').scrollIntoViewIfNeeded();
     const fitting = rows.filter(({ formats }) => formats.includes(name));
     for (let act = 0; act < ACTS && elapsed() < seconds; act += 1) {
@@ -112,6 +111,8 @@ test('soak @serial', async ({ page, browser }) => {
     trial = undefined;
     await forget(page);
     expect(page.workers(), 'the worker').toHaveLength(1);
+    // Its process is known by what it has done up to now.
+    busy ??= await Busy.begin(page, browser);
     if (elapsed() >= every * (samples.length + 1)) await sample();
   }
   await sample();

@@ -54,6 +54,7 @@ for (const { setting, query, open, made } of SETTINGS) {
         await expectLink(page, 'lost');
         await expectAllAccounted(page);
         const said = `${moment} ${states + 1}: ${value}, ${text}; ${JSON.stringify({ ...held, memory: undefined })}`;
+        console.log(said);
         expect(text, said).toMatch(HOLDS);
         // What is said to be so is so.
         if (value !== 'unknown') expect(made(held), said).toBe(value === 'yes');

@@ -16,7 +16,7 @@
 //! reads is lost.
 //!
 //! The end of standard input pulls the plug. `unplug-heard=N` pulls it when the Nth command after
-//! a pause has been heard, before an answer gets out, and `unplug-answered=N` when the answer to it
+//! a pause, or after reading, has been heard, before an answer gets out, and `unplug-answered=N` when the answer to it
 //! has been read.
 //!
 //! `tell` prints what it knows as a line of JSON, and so does the plug when it is pulled: bytes
@@ -147,7 +147,7 @@ mod native {
     }
 
     /// A line that says nothing for so long is between two conversations: a sequence waits longer
-    /// before its first command.
+    /// before its first command. A scan does not, but asks for something else than what is read.
     const PAUSE: Micros = 80_000;
     /// Bytes are known to have been read when none wait so long after they were sent.
     const READ_BY: Micros = 5_000;
@@ -157,8 +157,9 @@ mod native {
         moment: Moment,
         /// Commands still to be heard.
         left: u32,
-        /// The pause has been.
+        /// Reading has ended.
         begun: bool,
+        heard: Vec<u8>,
         heard_at: Micros,
         sent_at: Micros,
     }
@@ -175,14 +176,17 @@ mod native {
                 moment,
                 left,
                 begun: false,
+                heard: Vec::new(),
                 heard_at: now,
                 sent_at: 0,
             }
         }
 
         /// A command has been heard: what is sent at once comes at once.
-        fn hear(&mut self, now: Micros) {
-            self.begun |= now - self.heard_at >= PAUSE;
+        fn hear(&mut self, now: Micros, bytes: &[u8]) {
+            let other = !self.heard.is_empty() && self.heard != bytes;
+            self.begun |= other || now - self.heard_at >= PAUSE;
+            self.heard = bytes.into();
             self.heard_at = now;
             if self.begun {
                 self.left = self.left.saturating_sub(1);
@@ -333,7 +337,7 @@ mod native {
                 follow_rate(line, port)?;
                 line.handle_input(now, bytes);
                 if let Some(plug) = &mut plug {
-                    plug.hear(now);
+                    plug.hear(now, bytes);
                 }
             }
             if command.intersects(PollFlags::IN | PollFlags::HUP) {
