@@ -10,6 +10,7 @@ test:
 
 reliability: dist
 	@tests/reliability/run.sh matrix tabs unplugged
+	@tests/reliability/soak.sh 300
 
 soak: dist
 	@tests/reliability/soak.sh $(or $(SECONDS),3600)

@@ -86,7 +86,9 @@ impl Player {
     }
 
     pub(super) fn set_speed(&mut self, speed: f64, now: Micros) {
-        self.time = self.target(now);
+        // At once is no further than what comes next.
+        let next = self.next.as_ref().map_or(self.time, |next| next.at);
+        self.time = self.target(now).min(next).max(self.time);
         self.since = now;
         self.speed = if speed > 0.0 { speed } else { 0.0 };
     }
