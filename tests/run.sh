@@ -40,12 +40,10 @@ node web/single/build.js
 cargo build -q -p encoderscope-tests --bin pty-encoder
 tests/page/run.sh
 
-# Every fault with a format that is asked and one that streams; `make reliability` takes them all.
+# Every fault with a format that is asked and one that streams; `make reliability` takes them
+# all, and five minutes of mixed traffic.
 say "the page under faults"
 tests/reliability/run.sh matrix tabs unplugged -g ': (t485|asi1) |two tabs|write EEPROM'
 
 say "the npm package, the custom element and the documents"
 tests/package/run.sh
-
-say "a minute of mixed traffic with faults"
-tests/reliability/soak.sh 60
