@@ -81,7 +81,7 @@ pub struct Reader {
     at: usize,
     /// In which byte order the section is; nothing while one is searched for.
     order: Option<Order>,
-    /// A section has been found.
+    /// A section has been found, however damaged.
     found: bool,
     /// Something of a serial line has been found.
     serial: bool,
@@ -185,6 +185,7 @@ impl Reader {
             if order.is_none() && !self.found {
                 return Err(Unreadable::NotPcapng);
             }
+            self.found = true;
             let length = order.and_then(|order| length_of(rest, order));
             let Some(length) = length else {
                 self.skip();
@@ -194,7 +195,6 @@ impl Reader {
                 return Ok(None);
             }
             self.order = order;
-            self.found = true;
             return Ok(Some(length));
         }
     }
