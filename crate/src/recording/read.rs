@@ -81,7 +81,7 @@ pub struct Reader {
     at: usize,
     /// In which byte order the section is; nothing while one is searched for.
     order: Option<Order>,
-    /// A section has been found.
+    /// A section has been found, however damaged.
     found: bool,
     /// Something of a serial line has been found.
     serial: bool,
@@ -89,8 +89,6 @@ pub struct Reader {
     interfaces: Vec<Interface>,
     /// The line that is open, as far as the reader has said.
     open: Option<Line>,
-    /// The interface that the last packet was on.
-    current: Option<u32>,
     /// An event whose line was said first.
     held: Option<Moment>,
     lost: u64,
@@ -187,6 +185,7 @@ impl Reader {
             if order.is_none() && !self.found {
                 return Err(Unreadable::NotPcapng);
             }
+            self.found = true;
             let length = order.and_then(|order| length_of(rest, order));
             let Some(length) = length else {
                 self.skip();
@@ -196,7 +195,6 @@ impl Reader {
                 return Ok(None);
             }
             self.order = order;
-            self.found = true;
             return Ok(Some(length));
         }
     }
@@ -224,7 +222,6 @@ impl Reader {
             Ok((_, Block::SectionHeader(header))) => {
                 self.section = section(&header);
                 self.interfaces.clear();
-                self.current = None;
                 Ok(None)
             }
             Ok((_, Block::InterfaceDescription(description))) => {
@@ -235,12 +232,12 @@ impl Reader {
             }
             Ok((_, Block::EnhancedPacket(packet))) => self.packet(&packet),
             Ok((_, Block::InterfaceStatistics(end))) => {
-                let Some(interface) = self.interface(end.if_id) else {
+                let interface = self.interface(end.if_id);
+                let Some(interface) = interface.filter(|line| line.link == LINK_TYPE) else {
                     return Ok(None);
                 };
                 let at = interface.time(end.ts_high, end.ts_low);
                 let why = comment(&end.options);
-                self.current = None;
                 Ok(self.open.take().map(|_| Moment {
                     at,
                     event: Event::Closed(why),
@@ -282,9 +279,7 @@ impl Reader {
         };
         let moment = Moment { at, event };
         let lies = matches!(moment.event, Event::Marked(_) | Event::Ended(_));
-        let opens =
-            self.current != Some(packet.if_id) && self.open.as_ref() != Some(&interface.line);
-        self.current = Some(packet.if_id);
+        let opens = self.open.as_ref() != Some(&interface.line);
         // Notes may stand where no line is open.
         if !opens || (lies && interface.line == Line::default()) {
             return Ok(Some(moment));

@@ -1,12 +1,14 @@
 use super::Input;
-use encoderscope::recording::{Event, Line, LineError, Moment, Purpose, Reader, Writer};
+use encoderscope::recording::{
+    Event, Line, LineError, Moment, Purpose, Reader, Unreadable, Writer,
+};
 
 /// A recording: written and read again, cut anyhow, damaged, or arbitrary bytes from the start.
 ///
 /// # Panics
 ///
-/// A law is broken: what is read depends on the cuts, is not what was written, or bytes of the
-/// file are neither read nor counted as lost.
+/// A law is broken: what is read depends on the cuts, is not what was written, happens on a line
+/// that is not open, or more bytes are lost than there are.
 pub fn recording(data: &[u8]) {
     let mut input = Input(data);
     let how = input.byte();
@@ -18,12 +20,13 @@ pub fn recording(data: &[u8]) {
     }
     let (damage, place) = (input.byte(), input.word());
     let (file, written) = write(&mut input);
-    assert_eq!(moments(&file, file.len().max(1)), Ok(written.clone()));
-    assert_eq!(moments(&file, size), Ok(written.clone()));
+    for size in [file.len().max(1), size] {
+        assert_eq!(moments(&file, size), Ok((written.clone(), 0)));
+    }
 
     // What is cut off takes nothing away that stands before it.
     let cut = usize::from(place) % (file.len() + 1);
-    if let Ok(read) = moments(&file[..cut], size) {
+    if let Ok((read, _)) = moments(&file[..cut], size) {
         assert!(written.starts_with(&read));
     }
     let mut broken = file;
@@ -34,18 +37,28 @@ pub fn recording(data: &[u8]) {
     }
 }
 
-/// Reads a file in pieces.
-fn moments(file: &[u8], size: usize) -> Result<Vec<Moment>, encoderscope::recording::Unreadable> {
+/// Reads a file in pieces: what happened, and how many bytes could not be read.
+fn moments(file: &[u8], size: usize) -> Result<(Vec<Moment>, u64), Unreadable> {
     let mut reader = Reader::new();
     let mut found = Vec::new();
+    let mut open = false;
     for piece in file.chunks(size) {
         reader.push(piece);
         while let Some(moment) = reader.next()? {
+            match moment.event {
+                Event::Opened(_) => open = true,
+                Event::Closed(_) => assert!(core::mem::take(&mut open), "{moment:?}"),
+                Event::Marked(_) | Event::Ended(_) => {}
+                Event::Received { .. } | Event::Sent { .. } | Event::Failed(_) => {
+                    assert!(open, "{moment:?}");
+                }
+            }
             found.push(moment);
         }
     }
-    assert!(reader.lost() + reader.rest() as u64 <= file.len() as u64);
-    Ok(found)
+    let unread = reader.lost() + reader.rest() as u64;
+    assert!(unread <= file.len() as u64);
+    Ok((found, unread))
 }
 
 /// What arbitrary bytes say happens: the file, and what is to be read from it.
@@ -54,8 +67,8 @@ fn write(input: &mut Input<'_>) -> (Vec<u8>, Vec<Moment>) {
     let mut file = Vec::new();
     let mut written: Vec<Moment> = Vec::new();
     let mut open: Option<Line> = None;
-    // Said with the first thing that happens on the line.
-    let mut unsaid = false;
+    // A line is said with the first thing that happens on it.
+    let mut said: Option<Line> = None;
     let mut now = input.long();
     while !input.is_empty() {
         let (what, how) = (input.byte(), input.byte());
@@ -70,7 +83,6 @@ fn write(input: &mut Input<'_>) -> (Vec<u8>, Vec<Moment>) {
                     adapter: "adapter".into(),
                     baud: how.into(),
                 };
-                unsaid = open.as_ref() != Some(&line);
                 open = Some(line.clone());
                 writer.open(now, line, &mut file);
                 continue;
@@ -79,14 +91,25 @@ fn write(input: &mut Input<'_>) -> (Vec<u8>, Vec<Moment>) {
                 writer.begin(&mut file);
                 continue;
             }
-            // Nothing comes where no line is open.
-            _ if open.is_none() => continue,
-            1 if unsaid => continue,
             1 => {
                 open = None;
                 writer.close(now, &note, &mut file);
+                if said.take().is_none() {
+                    continue;
+                }
                 Event::Closed(note)
             }
+            7 if what & 8 == 0 => {
+                writer.end(now, &note, &mut file);
+                Event::Ended(note)
+            }
+            7 if note.is_empty() => continue,
+            7 => {
+                writer.mark(now, &note, &mut file);
+                Event::Marked(note)
+            }
+            // Notes are all that is left where no line is open.
+            _ if open.is_none() => continue,
             _ if bytes.is_empty() => continue,
             2 | 3 => {
                 writer.received(now, &bytes, beside, &mut file);
@@ -97,18 +120,14 @@ fn write(input: &mut Input<'_>) -> (Vec<u8>, Vec<Moment>) {
                 writer.sent(now, &bytes, purpose, &mut file);
                 Event::Sent { bytes, purpose }
             }
-            6 => {
+            _ => {
                 let error = input.one_of(&LineError::ALL);
                 writer.failed(now, error, &mut file);
                 Event::Failed(error)
             }
-            _ => {
-                writer.mark(now, &note, &mut file);
-                Event::Marked(note)
-            }
         };
-        if unsaid && !matches!(event, Event::Closed(_)) {
-            unsaid = false;
+        if open.is_some() && said != open {
+            said.clone_from(&open);
             written.push(Moment {
                 at: now,
                 event: Event::Opened(open.clone().unwrap_or_default()),

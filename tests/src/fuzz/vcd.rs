@@ -124,8 +124,8 @@ fn check_size(changes: &Changes, text: &[u8]) {
     assert!(changes.bytes() <= 12 * changes.len());
     let signals = changes.signals();
     assert!(signals.len() <= text.len().min(MOST_SIGNALS));
-    // A column without a name has its number.
-    let longest = text.len() + "column 1024".len();
+    // A column without a name has its number; what is no UTF-8 becomes a letter of three bytes.
+    let longest = 3 * text.len() + "column 1024".len();
     assert!(signals.iter().all(|signal| signal.name.len() <= longest));
     let mut edges = vec![0; signals.len()];
     let mut levels = vec![None; signals.len()];

@@ -206,14 +206,19 @@ fn notes_stand_where_no_line_is_open() {
     let mut file = Vec::new();
     writer.mark(5, "begins", &mut file);
     writer.end(6, "stopped", &mut file);
-    let events: Vec<Event> = read(&file).into_iter().map(|moment| moment.event).collect();
+    // Bytes open it, even if nothing is known about it.
+    writer.received(7, &[1], false, &mut file);
+    let moments = read(&file);
+    let events: Vec<&Event> = moments.iter().map(|moment| &moment.event).collect();
     assert_eq!(
-        events,
+        events[..3],
         [
-            Event::Marked("begins".into()),
-            Event::Ended("stopped".into())
+            &Event::Marked("begins".into()),
+            &Event::Ended("stopped".into()),
+            &Event::Opened(Line::default()),
         ]
     );
+    assert_eq!(moments[3..], [received(7, &[1])]);
 }
 
 /// A block with its high bytes first.
@@ -264,6 +269,16 @@ fn recordings_of_others_are_read() {
     };
     assert_eq!(moments[0].event, Event::Opened(line));
     assert_eq!(moments[1], received(5_000_000, &[0x64]));
+}
+
+#[test]
+fn a_network_beside_the_line_does_not_close_it() {
+    let network = big(1, &[0, 1, 0, 0, 0, 0, 0, 0]);
+    let end = |interface: u32| big(5, &[&interface.to_be_bytes()[..], &[0; 8]].concat());
+    let beside = [foreign(250), network, end(1)].concat();
+    assert_eq!(read(&beside), read(&foreign(250)));
+    let closed = read(&[beside, end(0)].concat());
+    assert_eq!(closed[2].event, Event::Closed(String::new()));
 }
 
 #[test]

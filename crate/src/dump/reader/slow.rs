@@ -48,12 +48,12 @@ impl Reader {
             return;
         }
         let (time, direction) = self.front(text, front);
-        for range in comments {
-            self.drop(text, range, Dropped::Comment);
+        for range in &comments {
+            self.drop(text, range.clone(), Dropped::Comment);
         }
         let from = front.body;
         match self.dump.writing.digits {
-            Digits::Numbers => self.number(text, whole, from),
+            Digits::Numbers => self.number(text, whole, from, &comments),
             Digits::Binary => {
                 let bits = self.bits(text, body, from);
                 self.dump.data.extend_from_slice(bits.as_bits().bytes());
@@ -67,14 +67,22 @@ impl Reader {
     }
 
     /// A number as it was on the wire.
-    fn number(&mut self, text: Text<'_>, whole: &str, from: usize) {
+    fn number(&mut self, text: Text<'_>, whole: &str, from: usize, comments: &[Range<usize>]) {
         let body = bare(whole.get(from..).unwrap_or_default());
-        let at = body.as_ptr() as usize - whole.as_ptr() as usize;
         if is_number(body) {
             self.dump.data.extend_from_slice(body.as_bytes());
             self.dump.data.extend_from_slice(b"\r\n");
-        } else {
-            self.unread(text, at..at + body.len());
+            return;
+        }
+        // What cannot be read is in parts where comments stand within it.
+        let mut start = from;
+        let end = whole.len()..whole.len();
+        for comment in comments.iter().chain([&end]) {
+            if let Some(part) = whole.get(start..comment.start).map(bare) {
+                let at = part.as_ptr() as usize - whole.as_ptr() as usize;
+                self.unread(text, at..at + part.len());
+            }
+            start = start.max(comment.end);
         }
     }
 
