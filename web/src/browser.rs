@@ -1,7 +1,7 @@
 //! Clock, timers and errors, the same in a worker and on the page.
 
 use encoderscope::session::Micros;
-use js_sys::{Array, Function, Promise, Reflect};
+use js_sys::{Array, Date, Function, Promise, Reflect};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 
@@ -57,6 +57,21 @@ pub fn system() -> String {
     let named = || known.into_iter().find(|name| agent.contains(name));
     let platform = platform.as_string().filter(|name| !name.is_empty());
     platform.unwrap_or_else(|| named().unwrap_or("unknown").to_owned())
+}
+
+/// A time with its date, on the user's clock, from milliseconds since 1970.
+#[must_use]
+pub fn time_text(milliseconds: f64) -> String {
+    let date = Date::new(&milliseconds.into());
+    format!(
+        "{}-{:02}-{:02} {:02}:{:02}:{:02}",
+        date.get_full_year(),
+        date.get_month() + 1,
+        date.get_date(),
+        date.get_hours(),
+        date.get_minutes(),
+        date.get_seconds()
+    )
 }
 
 /// Microseconds since the worker or page was made.

@@ -86,6 +86,8 @@ pub struct Reader {
     /// Something of a serial line has been found.
     serial: bool,
     section: Section,
+    /// What the first section says.
+    front: Option<String>,
     interfaces: Vec<Interface>,
     /// The line that is open, as far as the reader has said.
     open: Option<Line>,
@@ -130,6 +132,13 @@ impl Reader {
     #[must_use]
     pub const fn section(&self) -> &Section {
         &self.section
+    }
+
+    /// The comment in front of the file, as soon as its first section has been read: a support
+    /// file's text.
+    #[must_use]
+    pub fn front(&self) -> Option<&str> {
+        self.front.as_deref()
     }
 
     /// Bytes that could not be read: damage, and once everything has come ([`Self::rest`]) a
@@ -221,6 +230,9 @@ impl Reader {
         match parsed {
             Ok((_, Block::SectionHeader(header))) => {
                 self.section = section(&header);
+                if self.front.is_none() {
+                    self.front = Some(self.section.comment.clone());
+                }
                 self.interfaces.clear();
                 Ok(None)
             }

@@ -115,6 +115,22 @@ fn everything_that_happens_is_read_again() {
     assert_eq!(events, expected);
 }
 
+#[test]
+fn what_stands_in_front_is_known_whatever_comes_behind() {
+    let mut file = Vec::new();
+    let mut head = Writer::new("Encoderscope", "Linux").commented("what was seen");
+    head.begin(&mut file);
+    let mut writer = Writer::new("Encoderscope", "Linux");
+    writer.open(MIDNIGHT, line("format=t485"), &mut file);
+    writer.received(MIDNIGHT, &[1], false, &mut file);
+    let mut reader = Reader::new();
+    assert_eq!(reader.front(), None);
+    reader.push(&file);
+    assert_eq!(rest_of(&mut reader).len(), 2);
+    assert_eq!(reader.front(), Some("what was seen"));
+    assert_eq!(reader.section().comment, "");
+}
+
 /// A long recording: a packet every millisecond, each with its number.
 fn long(packets: u32) -> Vec<u8> {
     let mut writer = Writer::new("Encoderscope", "Linux");

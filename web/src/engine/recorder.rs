@@ -4,7 +4,7 @@ mod copy;
 
 use super::{Engine, State};
 use crate::{
-    browser::now,
+    browser::{now, time_text},
     message::{Answer, Kept, Place, RecorderState, Recording, Story},
     store::{self, Out},
 };
@@ -109,16 +109,8 @@ impl Running {
 
 /// A name that tells when the recording began, on the user's clock.
 fn name() -> String {
-    let date = Date::new_0();
-    format!(
-        "encoderscope-{}-{:02}-{:02}-{:02}-{:02}-{:02}.pcapng",
-        date.get_full_year(),
-        date.get_month() + 1,
-        date.get_date(),
-        date.get_hours(),
-        date.get_minutes(),
-        date.get_seconds()
-    )
+    let time = time_text(Date::now()).replace([' ', ':'], "-");
+    format!("encoderscope-{time}.pcapng")
 }
 
 impl Engine {

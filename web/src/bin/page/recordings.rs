@@ -157,17 +157,3 @@ fn clock_text(seconds: f64) -> String {
         _ => format!("{hours}:{minutes:02}:{:02}", seconds % 60),
     }
 }
-
-/// A time of day, with its date, on the user's clock.
-fn time_text(milliseconds: f64) -> String {
-    let date = js_sys::Date::new(&milliseconds.into());
-    format!(
-        "{}-{:02}-{:02} {:02}:{:02}:{:02}",
-        date.get_full_year(),
-        date.get_month() + 1,
-        date.get_date(),
-        date.get_hours(),
-        date.get_minutes(),
-        date.get_seconds()
-    )
-}

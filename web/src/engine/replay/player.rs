@@ -151,8 +151,8 @@ impl Player {
         }
         self.reported = true;
         self.look();
-        let comment = &self.reader.section().comment;
-        (!comment.is_empty()).then(|| comment.clone())
+        let front = self.reader.front().unwrap_or_default();
+        (!front.is_empty()).then(|| front.to_owned())
     }
 
     /// Why the file cannot be read, once.

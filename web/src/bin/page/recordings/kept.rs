@@ -4,10 +4,13 @@ use super::{
     Recordings,
     compare::Comparison,
     report::{Handing, Opened},
-    size_text, time_text,
+    size_text,
 };
 use crate::app::App;
-use encoderscope_web::message::{Kept, Wish};
+use encoderscope_web::{
+    browser::time_text,
+    message::{Kept, Wish},
+};
 use leptos::{html, prelude::*};
 
 #[component]

@@ -1,8 +1,11 @@
 //! Recordings that were cut off, offered with the next visit.
 
-use super::{Recordings, size_text, time_text};
+use super::{Recordings, size_text};
 use crate::app::App;
-use encoderscope_web::message::{Kept, Wish};
+use encoderscope_web::{
+    browser::time_text,
+    message::{Kept, Wish},
+};
 use leptos::prelude::*;
 
 #[component]

@@ -1,8 +1,11 @@
 //! The controls of a replay.
 
-use super::{Recordings, size_text, time_text};
+use super::{Recordings, size_text};
 use crate::app::{App, Source};
-use encoderscope_web::message::{Replay, Wish};
+use encoderscope_web::{
+    browser::time_text,
+    message::{Replay, Wish},
+};
 use leptos::prelude::*;
 
 /// How fast a recording may be replayed, and how that is called.

@@ -1,13 +1,13 @@
 //! The support file: what the page shows and what was said on the line of late, in one file that
 //! shows the same page elsewhere. It carries no names and no addresses.
 
-use super::{Recordings, clock_text, size_text, time_text};
+use super::{Recordings, clock_text, size_text};
 use crate::{
     app::{App, Source},
     doctor,
 };
 use encoderscope_web::{
-    browser::{property, system},
+    browser::{property, system, time_text},
     link::query,
     message::{Snapshot, Story, Wish},
     serial,
