@@ -42,18 +42,13 @@ export class Encoder {
     return JSON.parse((await this.lines.next()).value);
   }
 
-  /** Waits until it has pulled its own plug; returns what it tells in the end. */
-  async unplugged() {
+  /** Pulls the plug, if it is not out: the other end of the pty is gone. Returns what it tells in the end. */
+  async unplug() {
+    this.process.stdin.end();
     await this.ended;
     if (this.bound) execFileSync('umount', ['--lazy', port]);
     this.bound = false;
     this.last ??= (await this.lines.next()).value;
     return this.last && JSON.parse(this.last);
-  }
-
-  /** Pulls the plug: the other end of the pty is gone. */
-  unplug() {
-    this.process.stdin.end();
-    return this.unplugged();
   }
 }

@@ -50,16 +50,21 @@ for (const { setting, query, open, made } of SETTINGS) {
         await at(page, 'zero-confirm').click();
         const { value, text } = await outcome(page);
         if (text.startsWith('Done')) break;
-        const held = await encoder.unplugged();
+        // A machine that is busy for long answers too late, and the sequence stops by itself: that
+        // state is tried once more.
+        const pulled = await Promise.race([
+          encoder.ended.then(() => true),
+          page.waitForTimeout(2_000).then(() => false),
+        ]);
+        const held = await encoder.unplug();
         await expectLink(page, 'lost');
         await expectAllAccounted(page);
         const said = `${moment} ${states + 1}: ${value}, ${text}; ${JSON.stringify({ ...held, memory: undefined })}`;
-        console.log(said);
         expect(text, said).toMatch(HOLDS);
         // What is said to be so is so.
         if (value !== 'unknown') expect(made(held), said).toBe(value === 'yes');
-        states += 1;
-        outcomes[value] += 1;
+        states += Number(pulled);
+        outcomes[value] += Number(pulled);
         await page.getByRole('button', { name: 'Done' }).click();
         await plug(query);
         await page.evaluate(() => navigator.serial.dispatchEvent(new Event('connect')));

@@ -149,13 +149,17 @@ mod native {
     /// A line that says nothing for so long is between two conversations: a sequence waits longer
     /// before its first command. A scan does not, but asks for something else than what is read.
     const PAUSE: Micros = 80_000;
+    /// What comes sooner after what came before is read on: the pause was one of a busy machine. The
+    /// commands of a sequence and of a scan are further apart.
+    const APART: Micros = 10_000;
     /// Bytes are known to have been read when none wait so long after they were sent.
     const READ_BY: Micros = 5_000;
 
     /// When the plug is pulled.
     struct Plug {
         moment: Moment,
-        /// Commands still to be heard.
+        /// Commands to be heard, and those that are left.
+        count: u32,
         left: u32,
         /// Reading has ended.
         begun: bool,
@@ -171,10 +175,11 @@ mod native {
     }
 
     impl Plug {
-        fn new(moment: Moment, left: u32, now: Micros) -> Self {
+        fn new(moment: Moment, count: u32, now: Micros) -> Self {
             Self {
                 moment,
-                left,
+                count,
+                left: count,
                 begun: false,
                 heard: Vec::new(),
                 heard_at: now,
@@ -185,7 +190,12 @@ mod native {
         /// A command has been heard: what is sent at once comes at once.
         fn hear(&mut self, now: Micros, bytes: &[u8]) {
             let other = !self.heard.is_empty() && self.heard != bytes;
-            self.begun |= other || now - self.heard_at >= PAUSE;
+            let quiet = now - self.heard_at;
+            if quiet < APART {
+                self.begun = false;
+                self.left = self.count;
+            }
+            self.begun |= other || quiet >= PAUSE;
             self.heard = bytes.into();
             self.heard_at = now;
             if self.begun {
