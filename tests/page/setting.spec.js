@@ -98,7 +98,7 @@ for (const [name, query, setting, angle] of [
     await expect(at(page, 'gate')).toContainText('moves');
     await expect(at(page, 'zero-confirm')).toBeDisabled();
     // A message that no button has sent.
-    await page.evaluate((setting) => window.spied.engine.postMessage({ Set: setting }), setting);
+    await page.evaluate((setting) => window.spied.engine.postMessage([{ Set: setting }]), setting);
     await expectOutcome(page, 'no');
     await expect(at(page, 'zero-outcome')).toContainText('Nothing was sent');
     expect(await at(page, 'zero-count').count()).toBe(0);
