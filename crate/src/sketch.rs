@@ -150,9 +150,12 @@ impl Sketch {
             }
             Medium::Bytes | Medium::Text => {
                 let digits = record::hex(bits.bytes());
-                // Without letters they may be bits, or decimal.
+                // Without letters they may be bits, or decimal; with these in front they are bits.
                 let other = digits.bytes().any(|digit| digit.is_ascii_alphabetic());
-                if other { digits } else { format!("0x{digits}") }
+                match other && !digits.starts_with("0b") {
+                    true => digits,
+                    false => format!("0x{digits}"),
+                }
             }
         }
     }
