@@ -13,7 +13,7 @@
 //!   bytes sent by hand;
 //! - interface statistics end a line, with the reason as their comment.
 //!
-//! [`Writer`] begins a new section, which stands for itself, every quarter of a megabyte, so that
+//! [`Writer`] begins a new section, which stands for itself, every [`SECTION_LENGTH`], so that
 //! a [`Reader`] can start in the middle of a long recording, and goes on behind damage. A file
 //! that was cut off, as when the machine lost its supply, is read up to the cut.
 
@@ -25,6 +25,9 @@ pub use write::Writer;
 
 use crate::session::Micros;
 use alloc::{string::String, vec::Vec};
+
+/// A section is this long, in bytes, before the next one begins.
+pub const SECTION_LENGTH: usize = 131_072;
 
 /// Serial line, with the header of Schweitzer Engineering Laboratories' RTAC
 /// (tcpdump.org/linktypes/LINKTYPE_RTAC_SERIAL.html).

@@ -41,6 +41,16 @@ const record = async (page) => {
   await until(page, 'recorded', (size) => size > 0);
 };
 
+/** Records a link from before its first byte on. */
+const recordAll = async (page, query, ...settings) => {
+  encoder = await Encoder.start(...options(query), ...settings);
+  await demo(page, query);
+  await at(page, 'disconnect').click();
+  await expectLink(page, 'closed');
+  await at(page, 'record').click();
+  await at(page, 'connect').click();
+};
+
 const stop = async (page) => {
   await at(page, 'record').click();
   await expect(at(page, 'record')).toHaveText('Record');
@@ -111,15 +121,7 @@ for (const [name, query, settings] of [
   ['a stream with noise', 'format=asi1&angle-bits=14&baud=230400', ['turning=0.3', 'flip=5', 'interval=2000']],
 ]) {
   test(`a replay of ${name} counts what was counted @serial`, async ({ page }) => {
-    encoder = await Encoder.start(...options(query), ...settings);
-    await page.goto(`/#/console?${query}`);
-    // From before the first byte on.
-    await at(page, 'demo').click();
-    await expectLink(page, 'reading');
-    await at(page, 'disconnect').click();
-    await expectLink(page, 'closed');
-    await at(page, 'record').click();
-    await at(page, 'connect').click();
+    await recordAll(page, query, ...settings);
     await page.waitForTimeout(5_000);
     await until(page, 'frames-bad', (frames) => frames > 5);
     await at(page, 'disconnect').click();
@@ -141,14 +143,7 @@ for (const [name, query, settings] of [
 test('a full line is recorded to the last byte @serial', async ({ page }) => {
   test.setTimeout(60_000);
   const query = 'format=period&angle-bits=24&baud=2500000';
-  encoder = await Encoder.start(...options(query), 'turning=0.3', 'interval=28');
-  await page.goto(`/#/console?${query}`);
-  await at(page, 'demo').click();
-  await expectLink(page, 'reading');
-  await at(page, 'disconnect').click();
-  await expectLink(page, 'closed');
-  await at(page, 'record').click();
-  await at(page, 'connect').click();
+  await recordAll(page, query, 'turning=0.3', 'interval=28');
   await expectLink(page, 'reading');
   await page.waitForTimeout(5_000);
   await at(page, 'disconnect').click();

@@ -1,15 +1,13 @@
 //! What was said on the line of late, always kept; and all of it, while a recording runs.
 
 use encoderscope::{
-    recording::{Line, LineError, Purpose, Writer},
+    recording::{Line, LineError, Purpose, SECTION_LENGTH, Writer},
     session::Micros,
 };
 use std::collections::VecDeque;
 
 /// So many bytes are kept of what was said of late.
 const KEPT: usize = 8 * 1024 * 1024;
-/// They are let go in sections of so many.
-const SECTION: usize = 131_072;
 
 /// What was said, as sections of a recording.
 #[derive(Debug, Default)]
@@ -109,10 +107,9 @@ impl Transcript {
         rest
     }
 
-    /// What was said of late, as a recording with a comment in front; and for how long it goes
-    /// back, in microseconds.
+    /// What was said of late, as a recording with a comment in front.
     #[must_use]
-    pub fn late(&self, now: Micros, comment: &str) -> (Vec<u8>, Micros) {
+    pub fn late(&self, comment: &str) -> Vec<u8> {
         let mut file = Vec::new();
         let mut head = self.writer.clone().commented(comment);
         head.begin(&mut file);
@@ -120,20 +117,16 @@ impl Transcript {
             file.extend_from_slice(section);
         }
         file.extend_from_slice(&self.section);
-        (file, now.saturating_sub(self.since()))
+        file
     }
 
     /// How many bytes are kept, and for how long they go back, in microseconds.
     #[must_use]
     pub fn kept(&self, now: Micros) -> (usize, Micros) {
         let size = self.kept + self.section.len();
-        (size, now.saturating_sub(self.since()))
-    }
-
-    fn since(&self) -> Micros {
-        self.sections
-            .front()
-            .map_or(self.began, |(began, _)| *began)
+        let oldest = self.sections.front();
+        let since = oldest.map_or(self.began, |(began, _)| *began);
+        (size, now.saturating_sub(since))
     }
 
     fn put(&mut self, now: Micros, write: impl FnOnce(&mut Writer, Micros, &mut Vec<u8>)) {
@@ -142,7 +135,7 @@ impl Transcript {
         }
         if self.section.is_empty() {
             self.began = now;
-        } else if self.section.len() > SECTION {
+        } else if self.section.len() > SECTION_LENGTH {
             self.turn(now);
         }
         let from = self.section.len();

@@ -1,6 +1,6 @@
 //! Writes recordings.
 
-use super::{BESIDE, HEADER, LINK_TYPE, Line, LineError, Purpose, event};
+use super::{BESIDE, HEADER, LINK_TYPE, Line, LineError, Purpose, SECTION_LENGTH, event};
 use crate::session::Micros;
 use alloc::{
     borrow::Cow,
@@ -12,8 +12,6 @@ use pcap_parser::{
     PcapNGOption, SectionHeaderBlock, ToVec,
 };
 
-/// A section is this long, in bytes, before the next one begins.
-const SECTION: usize = 262_144;
 /// The longest value of an option.
 const LONGEST: usize = 65_532;
 
@@ -216,7 +214,7 @@ impl Writer {
         comment: Option<&str>,
         out: &mut Vec<u8>,
     ) {
-        if self.written == 0 || self.written > SECTION {
+        if self.written == 0 || self.written > SECTION_LENGTH {
             self.begin(out);
         } else if self.interface.is_none() {
             self.describe(out);

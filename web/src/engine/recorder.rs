@@ -130,11 +130,6 @@ impl Engine {
         });
     }
 
-    /// Ends the recording that runs.
-    pub(super) fn stop_recording(&self) {
-        self.state.borrow_mut().end_recording(None);
-    }
-
     /// Tells the page which recordings there are, when one has ended.
     pub(super) fn list_ended(&self) {
         if std::mem::take(&mut self.state.borrow_mut().recorder.ended) {
@@ -162,6 +157,7 @@ impl Engine {
                 Some(file) => engine.hand(Answer::File(name), Some(file.into())),
                 None => engine.fault("This recording is not there any more."),
             }
+            engine.list();
         });
     }
 
@@ -186,14 +182,19 @@ impl Engine {
         let engine = self.clone();
         wasm_bindgen_futures::spawn_local(async move {
             let made = Out::create(&wanted).await;
-            let ended = {
+            let unwanted = {
                 let running = &mut engine.state.borrow_mut().recorder.running;
-                let running = running.as_mut().filter(|running| running.name == wanted);
-                running
-                    .map(|running| running.sink = made.map_or_else(|_| Sink::memory(), Sink::File))
+                match running.as_mut().filter(|running| running.name == wanted) {
+                    Some(running) => {
+                        running.sink = made.map_or_else(|_| Sink::memory(), Sink::File);
+                        None
+                    }
+                    // It was ended meanwhile.
+                    None => made.ok(),
+                }
             };
-            if ended.is_none() {
-                // Nothing has been written into it.
+            if unwanted.is_some() {
+                drop(unwanted);
                 engine.change(async move { store::delete(&wanted).await });
             }
             engine.pump();
@@ -234,7 +235,12 @@ impl Engine {
         };
         match in_memory {
             Some(blob) => Some(blob),
-            None => store::open(name).await.ok().map(Into::into),
+            None => {
+                // One that was cut off gets its end first: a file that changes while it is read
+                // cannot be read on. One that runs keeps its own.
+                let _ = store::settle(name).await;
+                store::open(name).await.ok().map(Into::into)
+            }
         }
     }
 
@@ -271,9 +277,7 @@ impl Engine {
 
     /// A support file: what was said of late, with a text in front.
     pub(super) fn report(&self, text: &str) {
-        let mut state = self.state.borrow_mut();
-        let (file, _) = state.tally.transcript().late(now(), text);
-        drop(state);
+        let file = self.state.borrow_mut().tally.transcript().late(text);
         let blob = blob_of(&Array::of1(&Uint8Array::from(&file[..])));
         let name = name().replace(".pcapng", "-report.pcapng");
         self.hand(Answer::File(name), blob.map(Into::into));

@@ -38,6 +38,7 @@ impl Engine {
                     let player = Player::new(name, blob, profile);
                     engine.state.borrow_mut().asked = Some(Order::Replay(Box::new(player)));
                     engine.kick();
+                    engine.list();
                 }
                 None => engine.fault("This recording is not there any more."),
             }

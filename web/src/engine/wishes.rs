@@ -22,50 +22,38 @@ use wasm_bindgen::{JsCast, JsValue};
 impl Engine {
     /// Does what a part of the page wishes; a file may come with it.
     pub fn grant(&self, wish: Wish, file: Option<JsValue>) {
-        let mut state = self.state.borrow_mut();
+        let state = || self.state.borrow_mut();
+        let replays = state().is_replaying();
         match wish {
             // A recording hears nothing.
-            Wish::Scan | Wish::Watch(_) | Wish::Send { .. } | Wish::ReadMemory(_)
-                if state.is_replaying() => {}
-            Wish::Set(setting) => state.begin(setting),
-            Wish::StopSetting => state.stop(),
-            Wish::ForgetSetting => state.tally.forget_progress(),
-            Wish::Scan => state.scan(),
-            Wish::Watch(address) => state.watch(address),
-            Wish::Send { bytes, confirmed } => state.send(&bytes, confirmed),
-            Wish::Pace(rate) => state.pace(rate),
-            Wish::ReadMemory(address) => state.read_memory(address),
-            Wish::Supply(supply) => state.supply(supply),
-            Wish::Turn(speed) => state.turn(speed),
-            Wish::Knobs(knobs) => state.adjust(knobs),
-            Wish::Plot(request) => state.plot(&request),
-            Wish::Rest => state.rest(),
-            Wish::Mark(note) => state.tally.note(now(), &note),
-            Wish::Play(speed) => state.play_at(speed),
+            Wish::Scan | Wish::Watch(_) | Wish::Send { .. } | Wish::ReadMemory(_) if replays => {}
+            Wish::Set(setting) => state().begin(setting),
+            Wish::StopSetting => state().stop(),
+            Wish::ForgetSetting => state().tally.forget_progress(),
+            Wish::Scan => state().scan(),
+            Wish::Watch(address) => state().watch(address),
+            Wish::Send { bytes, confirmed } => state().send(&bytes, confirmed),
+            Wish::Pace(rate) => state().pace(rate),
+            Wish::ReadMemory(address) => state().read_memory(address),
+            Wish::Supply(supply) => state().supply(supply),
+            Wish::Turn(speed) => state().turn(speed),
+            Wish::Knobs(knobs) => state().adjust(knobs),
+            Wish::Plot(request) => state().plot(&request),
+            Wish::Rest => state().rest(),
+            Wish::Mark(note) => state().tally.note(now(), &note),
+            Wish::Play(speed) => state().play_at(speed),
             Wish::Story => {
-                let story = state.story();
-                (state.hand)(Answer::Story(story), None);
+                let story = state().story();
+                self.hand(Answer::Story(story), None);
             }
-            of_recordings => {
-                drop(state);
-                self.keep_or_replay(of_recordings, file);
-                return self.pump();
-            }
-        }
-        drop(state);
-        self.pump();
-    }
-
-    /// Does what is wished of recordings.
-    fn keep_or_replay(&self, wish: Wish, file: Option<JsValue>) {
-        match wish {
             Wish::Record => self.begin_recording(),
-            Wish::StopRecording => self.stop_recording(),
+            Wish::StopRecording => state().end_recording(None),
             Wish::Copy => {
                 if let Some(Ok(handle)) = file.map(JsCast::dyn_into) {
                     self.copy(handle);
                 }
             }
+            Wish::Recordings => self.list(),
             Wish::Settle(name) => self.settle(name),
             Wish::Delete(name) => self.delete(name),
             Wish::Fetch(name) => self.fetch(name),
@@ -73,8 +61,8 @@ impl Engine {
             Wish::Replay { name, profile } => self.replay(name, profile, file),
             Wish::Seek(part) => self.seek(part),
             Wish::Compare(names) => self.compare(names),
-            _ => self.list(),
         }
+        self.pump();
     }
 
     /// Answers a wish, with a file beside it.

@@ -26,7 +26,6 @@ pub(crate) fn Remains() -> impl IntoView {
 #[component]
 fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
     let name = StoredValue::new(kept.name.clone());
-    let settle = move || recordings.send(&Wish::Settle(name.get_value()));
     view! {
         <section class="panel remains" role="status" data-testid="remains" data-name=kept.name.clone()>
             <h2>"A recording was cut off"</h2>
@@ -42,23 +41,17 @@ fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
                 <button
                     class="primary"
                     data-testid="remains-replay"
-                    on:click=move |_| {
-                        settle();
-                        recordings.replay(name.get_value());
-                    }
+                    on:click=move |_| recordings.replay(name.get_value())
                 >
                     "Replay it"
                 </button>
                 <button
                     data-testid="remains-save"
-                    on:click=move |_| {
-                        settle();
-                        recordings.send(&Wish::Fetch(name.get_value()));
-                    }
+                    on:click=move |_| recordings.send(&Wish::Fetch(name.get_value()))
                 >
                     "Save it"
                 </button>
-                <button data-testid="remains-keep" on:click=move |_| settle()>"Keep it"</button>
+                <button data-testid="remains-keep" on:click=move |_| recordings.send(&Wish::Settle(name.get_value()))>"Keep it"</button>
                 <button class="quiet" on:click=move |_| recordings.send(&Wish::Delete(name.get_value()))>
                     "Delete it"
                 </button>
