@@ -177,7 +177,9 @@ test('a replay is held, goes on, jumps, and begins once more', async ({ page }) 
   await play(page, '10×');
   await ended(page);
   const all = await number(page, 'frames-ok');
+  // The end is still shown for a moment.
   await at(page, 'replay-play').click();
+  await until(page, 'frames-ok', (frames) => frames < all / 2);
   await ended(page);
   expect(Math.abs((await number(page, 'frames-ok')) - all)).toBeLessThanOrEqual(1);
   // What is behind the middle is about half of it.
@@ -185,6 +187,7 @@ test('a replay is held, goes on, jumps, and begins once more', async ({ page }) 
     input.value = '500';
     input.dispatchEvent(new Event('change'));
   });
+  await until(page, 'frames-ok', (frames) => frames < all / 2);
   await ended(page);
   const half = await number(page, 'frames-ok');
   expect(half).toBeGreaterThan(all * 0.1);
