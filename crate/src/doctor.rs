@@ -8,7 +8,7 @@
 //! | checks fail | frames of the right length whose checks fail: noise, a marginal rate |
 //! | other profile | the same bytes are good frames with other widths or of another stream |
 //! | unasked | bytes come that nobody asked for |
-//! | good | frames whose checks hold |
+//! | good | frames whose checks hold, if only some of them |
 
 use crate::{
     finder::{explain_replies, streams},
@@ -26,6 +26,12 @@ const FAILING_AFTER: u32 = 10;
 /// Bytes without a good frame after which a stream is called failing, and without a request
 /// after which it is called unasked.
 const BYTES_AFTER: usize = 200;
+/// So many good ones among the last frames, 64 of a stream or 32 replies, are read, however many
+/// others fail: by chance one in 256 passes the shortest check.
+const READ_FROM: u32 = 2;
+const REPLIES_RECENT: u64 = (1 << 32) - 1;
+/// So many bytes of a stream that are no frame count as one that has failed.
+const ABOUT_A_FRAME: usize = 8;
 /// Replies and bytes of a stream that are kept to be looked at.
 const REPLIES: usize = 12;
 const BYTES: usize = 2_048;
@@ -77,6 +83,8 @@ pub struct Doctor {
     finding: Finding,
     silent: u32,
     failing: u32,
+    /// The last frames, a bit each, the newest lowest: whether they were good.
+    recent: u64,
     /// Bytes since the last good frame: of no frame, and unasked.
     strange: usize,
     unasked: usize,
@@ -97,6 +105,7 @@ impl Doctor {
             finding: Finding::Waiting,
             silent: 0,
             failing: 0,
+            recent: 0,
             strange: 0,
             unasked: 0,
             current: Exchange::default(),
@@ -140,6 +149,7 @@ impl Doctor {
             Output::Frame { bytes, .. } => {
                 self.keep(bytes);
                 self.silent = 0;
+                self.recent = self.recent << 1 | u64::from(good);
                 if good {
                     self.finding = Finding::Good;
                     self.failing = 0;
@@ -163,10 +173,13 @@ impl Doctor {
                     }
                     Why::Truncated { .. } => {
                         self.silent = 0;
+                        self.recent <<= 1;
                         self.fails(now);
                     }
                     Why::NoFrame => {
                         self.strange += bytes.len();
+                        let lost = bytes.len().div_ceil(ABOUT_A_FRAME) as u32;
+                        self.recent = self.recent.checked_shl(lost).unwrap_or(0);
                         if self.is_stream() && self.strange >= BYTES_AFTER {
                             self.silent = 0;
                             self.judge(now);
@@ -212,6 +225,13 @@ impl Doctor {
     fn judge(&mut self, now: Micros) {
         self.failing = 0;
         self.strange = 0;
+        let recent = match self.is_stream() {
+            true => self.recent,
+            false => self.recent & REPLIES_RECENT,
+        };
+        if self.finding == Finding::Good && recent.count_ones() >= READ_FROM {
+            return;
+        }
         self.finding = match self.is_stream() {
             true => self.judge_stream(now),
             false => self.judge_replies(),

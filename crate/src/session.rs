@@ -14,12 +14,14 @@
 //! A reply is only sure when it comes alone: the line must be quiet before the first request,
 //! and what comes unasked, or in excess of a reply, makes the session wait for silence. A
 //! reply that is missing may still be on its way, so the next one is not sure, and the
-//! patience grows until replies and requests pair up again. Every few seconds the session listens
-//! a little longer before it asks, so that a reply too many is found out.
+//! patience grows until replies and requests pair up again; replies that come soon bring it back.
+//! Every few seconds the session listens a little longer before it asks, so that a reply too many
+//! is found out.
 
 mod ask;
 mod hand;
 mod output;
+mod patience;
 
 pub use ask::{Ask, Refusal};
 pub use hand::Hand;
@@ -32,16 +34,14 @@ use crate::{
 };
 use alloc::{collections::VecDeque, vec::Vec};
 use output::reported;
+use patience::Patience;
+pub(crate) use patience::TIMEOUT;
 
 /// Microseconds.
 pub type Micros = u64;
 
 /// Longest a USB adapter holds bytes back, with room: FTDI's latency timer is 16 ms.
 pub(crate) const QUIET: Micros = 20_000;
-/// How long a reply may take beyond its own bytes: request and reply may each be held back.
-/// It doubles with every reply that is missing, up to the longest.
-pub(crate) const TIMEOUT: Micros = 100_000;
-const LONGEST_TIMEOUT: Micros = 800_000;
 /// A stream that says nothing for so long is silent.
 const SILENCE: Micros = 500_000;
 /// Now and then a session listens before it asks, so that a reply too many does not stay in front
@@ -94,7 +94,7 @@ pub struct Session {
     state: State,
     echo: Echo,
     votes: u8,
-    timeout: Micros,
+    patience: Patience,
     /// A reply was missing and may still come: the request that it answers.
     late: Option<Vec<u8>>,
     /// When the session last listened before it asked.
@@ -162,7 +162,7 @@ impl Session {
             state: State::Fresh,
             echo: Echo::Unknown,
             votes: 0,
-            timeout: TIMEOUT,
+            patience: Patience::new(),
             late: None,
             listened: 0,
             received: Vec::new(),
@@ -346,7 +346,7 @@ impl Session {
         self.output.push_back(Output::Transmit(request));
         self.state = State::Waiting {
             sent: now,
-            until: now + on_wire + self.timeout,
+            until: now + on_wire + self.patience.time(),
         };
     }
 
@@ -398,6 +398,7 @@ impl Session {
     /// A good reply stands at `offset`, which is right for what is known of echo.
     fn accept(&mut self, now: Micros, sent: Micros, offset: usize) {
         self.emit(now, sent, offset, Some(offset));
+        self.patience.answered(now - sent);
         let mut next = self.next_request(now, sent);
         if now > self.listened + LISTEN_EVERY {
             self.listened = now;
@@ -432,7 +433,7 @@ impl Session {
             }
             // It may answer an earlier request, or belong to a talk that nobody asked for.
             let quiet = if self.may_be_late() {
-                self.timeout
+                self.patience.time()
             } else {
                 QUIET
             };
@@ -449,7 +450,7 @@ impl Session {
             self.late = Some(self.asked.bytes.clone());
             // Among several, one that is away must not hold up the others.
             if self.polls.len() < 2 {
-                self.timeout = (2 * self.timeout).min(LONGEST_TIMEOUT);
+                self.patience.grow();
             }
         } else if have < self.asked.reply {
             let bytes = core::mem::take(&mut self.received);

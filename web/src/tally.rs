@@ -374,8 +374,9 @@ impl Tally {
         {
             self.good_times.pop_front();
         }
+        // A pause does not take away all that is known: what is left reaches back a second.
         let old = |place: &Place| place.at + RATE_OVER < now;
-        while self.places.len() > FEWEST && self.places.front().is_some_and(old) {
+        while self.places.len() > FEWEST && self.places.get(1).is_some_and(old) {
             self.places.pop_front();
         }
     }

@@ -5,20 +5,35 @@ use encoderscope::{
     adapter::{CHIPS, Chip, Made},
     doctor::{Doctor, Finding},
     emulator::{Emulator, Faults, Shaft},
+    format::Link,
     session::{Micros, Output, Session},
 };
 use encoderscope_tests::decoder;
 
-/// What the doctor finds when a session for `asked` meets an encoder.
+/// What the doctor finds when a session for `asked` meets an encoder for two seconds.
 fn finding(asked: &str, encoder: &str, faults: Faults) -> Finding {
+    *findings(asked, encoder, &[faults]).last().unwrap()
+}
+
+/// What it finds every 10 ms, while faults follow each other, each for two seconds.
+fn findings(asked: &str, encoder: &str, faults: &[Faults]) -> Vec<Finding> {
     let mut emulator =
         Emulator::new(*decoder(encoder).profile(), Shaft::turning(3.8, 0.3)).unwrap();
-    emulator.faults = faults;
+    let mut findings = Vec::new();
+    let mut faults = faults.iter();
     let mut session = Session::new(decoder(asked), 0).unwrap();
     let mut doctor = Doctor::new(*session.decoder().profile(), 0);
     let mut now: Micros = 0;
+    let mut until: Micros = 0;
     emulator.drop_unread(now);
-    while now < 2_000_000 {
+    loop {
+        if now >= until {
+            let Some(next) = faults.next() else {
+                return findings;
+            };
+            emulator.faults = *next;
+            until += 2_000_000;
+        }
         session.handle_timeout(now);
         while let Some(bytes) = emulator.poll_output(now) {
             session.handle_input(now, &bytes);
@@ -37,10 +52,12 @@ fn finding(asked: &str, encoder: &str, faults: Faults) -> Finding {
             };
             doctor.watch(now, &output, good);
         }
+        while findings.len() as Micros * 10_000 < now {
+            findings.push(doctor.finding());
+        }
         let due = emulator.deadline().unwrap_or(Micros::MAX);
         now = due.min(session.deadline()).max(now + 1);
     }
-    doctor.finding()
 }
 
 const ALL: &[&str] = &[
@@ -96,6 +113,35 @@ fn each_state_has_its_name() {
             };
             assert_eq!(found(slower), Finding::Garbage, "{parameters}");
         }
+    }
+}
+
+#[test]
+fn a_link_on_which_some_frames_are_good_is_read_and_one_without_is_not() {
+    for parameters in ALL {
+        let fifth = Faults {
+            flip: 200,
+            ..Faults::default()
+        };
+        let spoilt = Faults {
+            flip: 900,
+            drop: 200,
+            insert: 200,
+            ..Faults::default()
+        };
+        // Text without a check is read whatever becomes of its digits.
+        if *parameters == "format=asi4" {
+            continue;
+        }
+        let found = findings(parameters, parameters, &[fifth, spoilt, spoilt, spoilt]);
+        let (noisy, bad) = found.split_at(200);
+        let good = noisy.iter().filter(|one| **one == Finding::Good).count();
+        let stream = decoder(parameters).profile().link() == Link::Stream;
+        let least = if stream { 150 } else { 80 };
+        assert!(good > least, "{parameters}: {good} of 200");
+        let bad = &bad[400..];
+        let good = bad.iter().filter(|one| **one == Finding::Good).count();
+        assert!(good < 40, "{parameters}: {good} of {}", bad.len());
     }
 }
 

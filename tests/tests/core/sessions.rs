@@ -228,6 +228,25 @@ fn silence_is_said_and_reading_goes_on_when_the_encoder_is_back() {
     assert!(pair.run(11 * SECOND).readings.len() > 500);
 }
 
+#[test]
+fn the_time_that_a_reply_is_waited_for_grows_with_losses_and_comes_back() {
+    let mut pair = Pair::new("format=t485", Shaft::turning(0.0, 0.3));
+    pair.emulator.faults = Faults {
+        lose: 100,
+        ..Faults::default()
+    };
+    let log = pair.run(60 * SECOND);
+    assert!(log.silent > 60, "{log:?}");
+    assert!(log.readings.len() > 60 * 10, "{}", log.readings.len());
+    pair.emulator.faults.lose = 1_000;
+    pair.run(70 * SECOND);
+    pair.emulator.faults = Faults::default();
+    pair.run(73 * SECOND);
+    pair.emulator.faults.lose = 1_000;
+    let silent = pair.run(74 * SECOND).silent;
+    assert!(silent >= 3, "{silent}");
+}
+
 /// Runs a session up to the request it sends next.
 fn ask(session: &mut Session) -> Micros {
     loop {
