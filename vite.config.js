@@ -63,9 +63,10 @@ const offline = VitePWA({
     })),
   },
   workbox: {
-    globPatterns: ['**/*.{html,css,js,wasm,svg,png}'],
+    globPatterns: ['**/*.{html,css,js,json,wasm,svg,png}'],
     maximumFileSizeToCacheInBytes: 4_000_000,
     navigateFallback: null,
+    ignoreURLParametersMatching: [/^lang$/],
     inlineWorkboxRuntime: true,
   },
 });

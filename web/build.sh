@@ -4,6 +4,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 source web/toolchain.sh
 
+say "checking the texts of other languages"
+node web/locales/build.mjs
+
 say "building the core"
 wasm_cargo build --profile wasm -p encoderscope-web --bin module
 say "building the page"
@@ -52,7 +55,7 @@ brotli() {
   node -e 'process.stdout.write(String(require("zlib").brotliCompressSync(require("fs").readFileSync(process.argv[1])).length))' "$1"
 }
 
-sources=(package-lock.json web/pkg/*.js web/pkg/*.wasm web/pkg/page web/js web/public web/style)
+sources=(package-lock.json web/pkg/ru.json web/pkg/*.js web/pkg/*.wasm web/pkg/page web/js web/public web/style)
 npm=web/pkg/npm
 if outdated $npm/encoder-frame.js web/modules.config.js "${sources[@]}"; then
   say "bundling the modules"

@@ -19,6 +19,7 @@
 //! - [`export`]: decoders as source, frames as tables; [`link`]: a profile in a link;
 //! - [`product`]: what is sold; [`model`]: order codes; [`wiring`]: which wire goes where;
 //!   [`procedure`]: how the zero of each product is set; [`lamp`]: what an encoder's LED says;
+//! - [`language`]: what is said to people, in English or another language;
 //! - [`calculator`]: what is worked out on paper; [`adapter`]: what USB adapters can do;
 //!   [`apci1710`]: the registers of a board that clocks SSI encoders.
 //!
@@ -57,6 +58,7 @@ pub mod format;
 pub mod framing;
 pub mod history;
 pub mod lamp;
+pub mod language;
 pub mod layout;
 pub mod link;
 pub mod model;

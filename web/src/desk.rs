@@ -15,7 +15,7 @@ mod share;
 mod source;
 
 use crate::{
-    link,
+    language, link,
     message::{Explained, FromDesk, Marked, RowView, Selection, ToDesk, TraceView},
 };
 use captured::Captured;
@@ -150,6 +150,7 @@ impl Desk {
     /// Does what the page asks for.
     pub fn handle(&self, message: ToDesk, file: Option<JsValue>) {
         match message {
+            ToDesk::Speak => language::speak(&file.unwrap_or_default()),
             ToDesk::Text { text, profile } => {
                 let bytes: Rc<[u8]> = text.into_bytes().into();
                 self.open(Source::Memory(bytes), String::new(), &profile);

@@ -9,6 +9,7 @@
 pub mod browser;
 pub mod desk;
 pub mod engine;
+pub mod language;
 pub mod message;
 pub mod plot;
 pub mod serial;

@@ -19,7 +19,15 @@ pub use search::{Found, Search, SearchStage, Trial};
 pub use wish::{Answer, Wish};
 
 use encoderscope::sequence::Change;
+use js_sys::Array;
 use serde::{Deserialize, Serialize};
+use wasm_bindgen::JsValue;
+
+/// [`Wish::Speak`] and [`ToDesk::Speak`], which the first view says without knowing the others.
+#[must_use]
+pub fn speak(texts: &JsValue) -> JsValue {
+    Array::of2(&"Speak".into(), texts).into()
+}
 
 /// From the page to the engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{
     browser::now,
+    language,
     message::{Answer, FromEngine, Knobs, Link, STILL, Setting, Snapshot, Supply, Wish},
     tally::News,
 };
@@ -27,6 +28,7 @@ impl Engine {
         match wish {
             // A recording hears nothing.
             Wish::Scan | Wish::Watch(_) | Wish::Send { .. } | Wish::ReadMemory(_) if replays => {}
+            Wish::Speak => language::speak(&file.unwrap_or_default()),
             Wish::Set(setting) => state().begin(setting),
             Wish::StopSetting => state().stop(),
             Wish::ForgetSetting => state().tally.forget_progress(),

@@ -4,15 +4,17 @@ use crate::{
     Workers, adapters,
     connection::Connection,
     console::Console,
+    language::{LanguageSwitch, Spoken},
     parts::{self, coming, later},
     plot::Feed,
     ports::Obstacle,
     theme::ThemeSwitch,
 };
-use encoderscope::{format::Format, profile::Profile};
+use encoderscope::language::t;
+use encoderscope::{format::Format, language::t, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
-    message::{PortId, Snapshot, ToEngine, Wish},
+    message::{self, PortId, Snapshot, ToEngine, Wish},
     serial,
 };
 use js_sys::Array;
@@ -54,12 +56,12 @@ impl Area {
         }
     }
 
-    const fn title(self) -> &'static str {
+    fn title(self) -> &'static str {
         match self {
-            Self::Console => "Console",
-            Self::Decode => "Decode",
-            Self::Explain => "Explain",
-            Self::Reference => "Reference",
+            Self::Console => t("Console"),
+            Self::Decode => t("Decode"),
+            Self::Explain => t("Explain"),
+            Self::Reference => t("Reference"),
         }
     }
 }
@@ -110,6 +112,8 @@ pub(crate) struct App {
     pub(crate) just_plugged: RwSignal<bool>,
     /// A recording runs; a new version of the page must not end it.
     pub(crate) recording: RwSignal<bool>,
+    /// The language of it all.
+    pub(crate) spoken: Spoken,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
@@ -118,8 +122,9 @@ impl App {
         let snapshot = RwSignal::new(Snapshot::default());
         let feed = Feed::new();
         let broken = RwSignal::new(false);
+        let spoken = Spoken::new(&workers);
         let workers = StoredValue::new_local(workers);
-        let connection = Connection::new(workers, snapshot, feed, broken);
+        let connection = Connection::new(workers, spoken.texts, snapshot, feed, broken);
         Self {
             area: RwSignal::new(Area::Console),
             profile: RwSignal::new(Format::T485.default_profile()),
@@ -141,6 +146,7 @@ impl App {
             broken,
             just_plugged: RwSignal::new(false),
             recording: RwSignal::new(false),
+            spoken,
             connection: StoredValue::new_local(connection),
         }
     }
@@ -166,6 +172,12 @@ impl App {
     pub(crate) fn send(&self, message: &ToEngine) {
         self.connection
             .with_value(|connection| connection.send(message));
+    }
+
+    /// Tells the engine the texts of another language.
+    pub(crate) fn tell(&self, texts: &JsValue) {
+        self.connection
+            .with_value(|connection| connection.post(message::speak(texts)));
     }
 
     /// Tells the engine what a part of the page wishes.
@@ -397,6 +409,15 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
     let owner = app.owner.get_value();
     after_picture(move || owner.with(|| app.begin(bare)));
 
+    // Another language makes all views anew; what runs goes on.
+    move || {
+        app.spoken.language.track();
+        shell(app)
+    }
+}
+
+/// What is around the areas.
+fn shell(app: App) -> impl IntoView + use<> {
     view! {
         <header class="bar">
             <a class="brand" href="#/console">
@@ -407,7 +428,7 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
                 </svg>
                 "Encoderscope"
             </a>
-            <nav aria-label="Areas">
+            <nav aria-label=t("Areas")>
                 {Area::ALL
                     .map(|area| {
                         view! {
@@ -424,6 +445,7 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
             <span class="pill" data-testid="profile" data-value=move || query(&app.profile.get())>
                 {move || summary(&app.profile.get())}
             </span>
+            <LanguageSwitch />
             <ThemeSwitch />
         </header>
         <main>

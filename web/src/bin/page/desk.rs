@@ -4,14 +4,14 @@ mod link;
 
 pub(crate) use link::end_text;
 
-use crate::{Workers, app::App, handout::save};
+use crate::{Workers, app::App, handout::save, language::Spoken};
 use encoderscope::profile::Profile;
 use encoderscope_web::{
     browser::Peer,
     link::{self as links, query},
     message::{
-        CandidateView, Explained, FromDesk, Marked, NearView, Overview, RowView, Selection, ToDesk,
-        TraceView,
+        self, CandidateView, Explained, FromDesk, Marked, NearView, Overview, RowView, Selection,
+        ToDesk, TraceView,
     },
 };
 use js_sys::Array;
@@ -44,6 +44,7 @@ type Parcel = (ToDesk, Option<Blob>);
 #[derive(Clone, Copy)]
 pub(crate) struct Desk {
     workers: StoredValue<Workers, LocalStorage>,
+    spoken: Spoken,
     worker: StoredValue<Option<Peer>, LocalStorage>,
     /// What was said before the worker was ready.
     waiting: StoredValue<Option<Vec<Parcel>>, LocalStorage>,
@@ -96,14 +97,19 @@ pub(crate) struct Desk {
 impl App {
     /// The page's end of the worker that decodes dumps.
     pub(crate) fn desk(self) -> Desk {
-        self.keep(|| Desk::new(self.workers))
+        self.keep(|| {
+            let desk = Desk::new(self.workers, self.spoken);
+            desk.follow_language();
+            desk
+        })
     }
 }
 
 impl Desk {
-    fn new(workers: StoredValue<Workers, LocalStorage>) -> Self {
+    fn new(workers: StoredValue<Workers, LocalStorage>, spoken: Spoken) -> Self {
         Self {
             workers,
+            spoken,
             worker: StoredValue::new_local(None),
             waiting: StoredValue::new_local(Some(Vec::new())),
             text: RwSignal::new(String::new()),
@@ -140,6 +146,30 @@ impl Desk {
     /// Whether there is nothing to decode.
     pub(crate) fn is_empty(self) -> bool {
         self.file.with(Option::is_none) && self.text.with(|text| text.trim().is_empty())
+    }
+
+    /// Tells the worker the texts of the language.
+    fn tell(self) {
+        let texts = self.spoken.texts.get_value();
+        self.worker.with_value(|worker| {
+            if let Some(worker) = worker {
+                // A worker that is gone has reported its error already.
+                let _ = worker.post(&message::speak(&texts));
+            }
+        });
+    }
+
+    /// Has all that was said of the input said again in another language.
+    fn follow_language(self) {
+        Effect::new(move |before: Option<()>| {
+            self.spoken.language.track();
+            if before.is_some() {
+                self.tell();
+                if let Some(profile) = self.profile.get_value() {
+                    self.send(ToDesk::Profile(query(&profile)));
+                }
+            }
+        });
     }
 
     /// Speaks to the worker, which is made when it is first needed.
@@ -240,6 +270,7 @@ impl Desk {
     fn receive(self, message: FromDesk, file: &JsValue) {
         match message {
             FromDesk::Ready => {
+                self.tell();
                 let waiting = self.waiting.try_update_value(Option::take).flatten();
                 for (message, file) in waiting.unwrap_or_default() {
                     self.send_with(message, file);

@@ -20,6 +20,7 @@ mod explain;
 mod finder;
 mod frame_view;
 mod handout;
+mod language;
 mod link_panel;
 mod live;
 mod log;
@@ -44,6 +45,15 @@ extern "C" {
     #[derive(Clone, Debug)]
     /// Fetches and makes what is not Rust; `web/js/main.js`.
     pub type Workers;
+    /// The language that the page begins with, by its code.
+    #[wasm_bindgen(method, getter)]
+    fn language(this: &Workers) -> String;
+    /// Its texts; undefined for English.
+    #[wasm_bindgen(method, getter)]
+    fn texts(this: &Workers) -> JsValue;
+    /// Speaks another language, in scripts, in the address and at the next visit; returns its texts.
+    #[wasm_bindgen(method, catch)]
+    async fn speak(this: &Workers, language: &str) -> Result<JsValue, JsValue>;
     /// One that runs the engine.
     #[wasm_bindgen(method, catch)]
     fn engine(this: &Workers) -> Result<Peer, JsValue>;

@@ -1,0 +1,112 @@
+// The texts of the page in other languages: `node web/locales/build.mjs` checks that each is there
+// and writes web/pkg/LANGUAGE.json for the page.
+//
+// What is said stands in the source in English, in t("…"), msg("…"), said("…"), text!("…") and
+// say!(out, "…"), and in t('…') of scripts (crate/src/language.rs). A file of this directory has
+// English texts as names and the others as values; fields.json has formats and their fields.
+//
+//   node web/locales/build.mjs --missing crate/src/detect      what has no translation, as JSON
+import { mkdir, readFile, readdir, writeFile } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
+
+const top = fileURLToPath(new URL('../..', import.meta.url));
+const SOURCES = ['crate/src', 'web/src', 'web/js'];
+const LANGUAGES = ['ru'];
+/** What is in a catalogue beside texts: the decimal mark. */
+const MARK = '.';
+
+const ESCAPES = { n: '\n', r: '\r', t: '\t', 0: '\0', '\\': '\\', '"': '"', "'": "'" };
+
+/** What stands between the quotes of a string of Rust or JavaScript. */
+const unescaped = (text) =>
+  text.replace(/\\(?:\n\s*|u\{([0-9a-fA-F_]+)\}|x([0-9a-fA-F]{2})|(.))/g, (_, wide, byte, one) =>
+    wide || byte ? String.fromCodePoint(parseInt(wide ?? byte, 16)) : one ? ESCAPES[one] : '',
+  );
+
+// Comments, characters and raw strings, so that nothing in them is taken for a string.
+const RUST = /\/\/[^\n]*|\/\*[^]*?\*\/|r(#*)"[^]*?"\1|b?'(?:\\[^]+?|[^\\'])'|"((?:\\[^]|[^"\\])*)"/g;
+const SCRIPT = /\/\/[^\n]*|\/\*[^]*?\*\/|`(?:\\[^]|[^`\\])*`|'((?:\\[^]|[^'\\])*)'/g;
+const ASKED = /(?:(?<![.\w])(?:t|msg|said)\(|\btext!\(|\bsay!\([^"']*,)\s*$/;
+
+/** The texts of a source that are said to people. */
+const texts = (source, rust) =>
+  [...source.matchAll(rust ? RUST : SCRIPT)]
+    .filter((found) => ASKED.test(source.slice(Math.max(0, found.index - 120), found.index)))
+    .map((found) => found.at(-1))
+    .filter((text) => text !== undefined)
+    .map(unescaped);
+
+/** The files below a directory. */
+const below = async (path) => {
+  const entries = await readdir(top + path, { withFileTypes: true });
+  const found = entries.map((entry) =>
+    entry.isDirectory() ? below(`${path}/${entry.name}`) : [`${path}/${entry.name}`],
+  );
+  return (await Promise.all(found)).flat();
+};
+
+/** What is said, with the file that says it. */
+const said = async () => {
+  const files = (await Promise.all(SOURCES.map(below))).flat().filter((file) => /\.(rs|js)$/.test(file));
+  const found = new Map();
+  for (const file of files) {
+    // The module itself names what others say.
+    if (file === 'crate/src/language.rs') continue;
+    for (const text of texts(await readFile(top + file, 'utf8'), file.endsWith('.rs'))) {
+      if (text && !found.has(text)) found.set(text, file);
+    }
+  }
+  return found;
+};
+
+/** What a language has, as [English, other]; a field of a format is `format.field`. */
+const translations = async (language) => {
+  const found = [];
+  for (const name of (await readdir(new URL(`${language}/`, import.meta.url))).sort()) {
+    const file = JSON.parse(await readFile(new URL(`${language}/${name}`, import.meta.url), 'utf8'));
+    for (const [key, value] of Object.entries(file)) {
+      if (typeof value === 'string') found.push([key, value, name]);
+      else for (const [field, text] of Object.entries(value)) found.push([`${key}.${field}`, text, name]);
+    }
+  }
+  return found;
+};
+
+/** The places for values in a text, in order of their index. */
+const places = (text) => {
+  let next = 0;
+  const all = [...text.matchAll(/\{(\d*)(?:\|[^}]*)?\}/g)].map(([, index]) => (index === '' ? next++ : Number(index)));
+  return [...new Set(all)].sort((one, other) => one - other).join();
+};
+
+const faults = [];
+const english = await said();
+for (const language of LANGUAGES) {
+  const list = await translations(language);
+  const known = new Map();
+  for (const [key, value, file] of list) {
+    if (known.has(key) && known.get(key) !== value) faults.push(`${language}/${file}: ${JSON.stringify(key)} is there twice`);
+    known.set(key, value);
+    const isField = /^[a-z0-9-]+\.[a-z0-9_-]+$/.test(key);
+    if (key !== MARK && !isField && !english.has(key)) {
+      faults.push(`${language}/${file}: nothing says ${JSON.stringify(key)}`);
+    }
+    if (!value) faults.push(`${language}/${file}: ${JSON.stringify(key)} is empty`);
+    if (!isField && places(key) !== places(value)) {
+      faults.push(`${language}/${file}: ${JSON.stringify(key)} has other values than ${JSON.stringify(value)}`);
+    }
+  }
+  const missing = [...english].filter(([text]) => !known.has(text));
+  const wanted = process.argv.indexOf('--missing') + 1;
+  if (wanted) {
+    const of = missing.filter(([, file]) => file.startsWith(process.argv[wanted] ?? ''));
+    console.log(JSON.stringify(Object.fromEntries(of.map(([text]) => [text, ''])), null, 2));
+    process.exit();
+  }
+  for (const [text, file] of missing) faults.push(`${file}: ${JSON.stringify(text)} is not in ${language}`);
+  await mkdir(`${top}web/pkg`, { recursive: true });
+  await writeFile(`${top}web/pkg/${language}.json`, JSON.stringify(Object.fromEntries(known)));
+}
+for (const fault of faults) console.error(fault);
+if (faults.length) console.error(`${faults.length} texts are not right.`);
+process.exitCode = faults.length ? 1 : 0;
