@@ -10,7 +10,6 @@ use crate::{
     ports::Obstacle,
     theme::ThemeSwitch,
 };
-use encoderscope::language::t;
 use encoderscope::{format::Format, language::t, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
