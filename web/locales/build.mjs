@@ -17,6 +17,8 @@ const LANGUAGES = ['ru'];
 /** What is in a catalogue beside texts: the decimal mark. */
 const MARK = '.';
 const NAMES = 'names.json';
+/** Where choice! has docs that nothing shows. */
+const KINDS = 'crate/src/format/own/draft.rs';
 
 const ESCAPES = { n: '\n', r: '\r', t: '\t', 0: '\0', '\\': '\\', '"': '"', "'": "'" };
 
@@ -40,7 +42,7 @@ const texts = (source, rust) =>
     .map(unescaped);
 
 // What layout! and choice! make of docs, and the names of the rows.
-const TABLES = /\b(layout|choice)! \{\n([^]*?)\n\}/g;
+const TABLES = /\b(?:layout|choice)! \{\n([^]*?)\n\}/g;
 const ROW = /((?:^ *\/\/\/.*\n)+) *(?:(\w+): [A-Z]\w*\[|\w+ = "|(pub) static)/gm;
 const line = (doc) => doc.replace(/^ *\/\/\/ ?/gm, '').trim().split('\n').map((part) => part.trim()).join(' ');
 const title = (doc) => line(doc).replace(/\.*$/, '').replace(/[`*]/g, '');
@@ -48,7 +50,7 @@ const title = (doc) => line(doc).replace(/\.*$/, '').replace(/[`*]/g, '');
 /** The docs of tables, and the names of their rows. */
 const docs = (source) =>
   [...source.matchAll(TABLES)]
-    .flatMap(([, , table]) => [...table.matchAll(ROW)])
+    .flatMap(([, table]) => [...table.matchAll(ROW)])
     .flatMap(([, doc, name, isTable]) => (isTable ? [title(doc)] : name ? [line(doc), name] : [line(doc)]));
 
 /** The files below a directory. */
@@ -68,7 +70,8 @@ const said = async () => {
     // The module itself names what others say.
     if (file === 'crate/src/language.rs') continue;
     const source = await readFile(top + file, 'utf8');
-    for (const text of [...texts(source, file.endsWith('.rs')), ...docs(source)]) {
+    const tables = file === KINDS ? [] : docs(source);
+    for (const text of [...texts(source, file.endsWith('.rs')), ...tables]) {
       if (text && !found.has(text)) found.set(text, file);
     }
   }

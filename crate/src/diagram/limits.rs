@@ -29,16 +29,6 @@ pub struct Limit {
     pub at: (i64, i64),
 }
 
-impl Limit {
-    /// Whether that is allowed, in a word.
-    pub(super) fn verdict(&self) -> &'static str {
-        match self.holds {
-            true => t("holds"),
-            false => t("fails"),
-        }
-    }
-}
-
 /// A clock as it is. Times are in picoseconds.
 pub(super) struct Clock {
     pub(super) half: i64,

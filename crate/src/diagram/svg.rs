@@ -85,10 +85,10 @@ pub fn timeline(frame: &Frame<'_>, timeline: &Timeline, style: &Style) -> String
     waves::draw(&mut pen, &scene, timeline);
     table::limits(&mut pen, timeline);
     let title = text!("{}, on the wire", scene.title());
-    let said = timeline
-        .limits
-        .iter()
-        .map(|limit| format!(" {} {}: {}.", t(limit.name), limit.verdict(), limit.value));
+    let said = timeline.limits.iter().map(|limit| match limit.holds {
+        true => text!(" {} holds: {}.", t(limit.name), limit.value),
+        false => text!(" {} fails: {}.", t(limit.name), limit.value),
+    });
     let desc = scene.describe() + &said.collect::<String>();
     pen.finish(style.theme, &title, &desc)
 }

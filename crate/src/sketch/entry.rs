@@ -3,7 +3,7 @@
 use crate::{
     bits,
     explain::tenths,
-    language::t,
+    language::{number, t},
     layout::{Field, Resolved, Role},
     profile::TurnsCode,
     say,
@@ -43,7 +43,12 @@ impl fmt::Display for Refusal {
             } => {
                 let unit = if tenths { 10.0 } else { 1.0 };
                 match tenths {
-                    true => say!(f, "{} to {} fit", least as f64 / unit, most as f64 / unit),
+                    true => say!(
+                        f,
+                        "{} to {} fit",
+                        number(least as f64 / unit),
+                        number(most as f64 / unit)
+                    ),
                     false => say!(f, "{} to {} fit", least, most),
                 }
             }

@@ -10,6 +10,7 @@ use crate::{
     explain::{Note, grouped},
     language::t,
     layout::Resolved,
+    text,
 };
 use alloc::{format, string::String, vec::Vec};
 
@@ -102,17 +103,12 @@ fn bits(layout: &Resolved, note: &Note, scene: &Scene<'_>) -> String {
 pub(super) fn limits(pen: &mut Pen, timeline: &Timeline) {
     for limit in &timeline.limits {
         pen.rule();
-        let (mark, class) = match limit.holds {
-            true => ("✓", "es-good"),
-            false => ("✗", "es-bad"),
+        let (name, value) = (t(limit.name), &limit.value);
+        let (head, class) = match limit.holds {
+            true => (text!("✓ {}: holds, {}", name, value), "es-good"),
+            false => (text!("✗ {}: fails, {}", name, value), "es-bad"),
         };
         pen.down(LINE);
-        let head = format!(
-            "{mark} {}: {}, {}",
-            t(limit.name),
-            limit.verdict(),
-            limit.value
-        );
         pen.text(MARGIN, class, &head);
         let asked = format!("{} ({})", limit.text, t(limit.source));
         for line in wrapped(&asked, pen.inner() - 16.0, TEXT) {
