@@ -17,6 +17,7 @@ pub mod t485;
 pub mod timing;
 
 use crate::{
+    language::msg,
     layout::{StatusBit, layout},
     profile::Profile,
 };
@@ -272,38 +273,42 @@ pub fn blinks(name: &str) -> bool {
 pub static STATUS: &[StatusBit] = &[
     StatusBit {
         place: 5,
-        name: "battery disconnected",
-        doc: "the turn counter was lost and restarted from 0; check the battery, then power-cycle",
+        name: msg("battery disconnected"),
+        doc: msg(
+            "the turn counter was lost and restarted from 0; check the battery, then power-cycle",
+        ),
         role: None,
     },
     StatusBit {
         place: 4,
-        name: "battery low",
-        doc: "below 2.9 V the turns are still good, below 2.7 V not; replace the battery",
+        name: msg("battery low"),
+        doc: msg("below 2.9 V the turns are still good, below 2.7 V not; replace the battery"),
         role: None,
     },
     StatusBit {
         place: 3,
-        name: "field too strong",
-        doc: "the rotor is too close to the stator or a magnet is near; check the mounting gap",
+        name: msg("field too strong"),
+        doc: msg(
+            "the rotor is too close to the stator or a magnet is near; check the mounting gap",
+        ),
         role: None,
     },
     StatusBit {
         place: 2,
-        name: "field too weak",
-        doc: "the rotor is too far from the stator; check the mounting gap",
+        name: msg("field too weak"),
+        doc: msg("the rotor is too far from the stator; check the mounting gap"),
         role: None,
     },
     StatusBit {
         place: 1,
-        name: "temperature out of range",
-        doc: "the encoder is hotter or colder than its order code allows",
+        name: msg("temperature out of range"),
+        doc: msg("the encoder is hotter or colder than its order code allows"),
         role: None,
     },
     StatusBit {
         place: 0,
-        name: "overspeed",
-        doc: "the shaft turns faster than the encoder can follow; slow down",
+        name: msg("overspeed"),
+        doc: msg("the shaft turns faster than the encoder can follow; slow down"),
         role: None,
     },
 ];

@@ -3,8 +3,9 @@
 //! The source says everything in English, and the English text is the name of what is said: a
 //! [`Catalogue`] has the same in another language. [`t`] looks a text up; [`say!`](crate::say) and
 //! [`text!`](crate::text) fill in what changes; [`msg`] marks a text in a table that is looked up
-//! later. What a field means is looked up by its format and name ([`field`]). What programs read –
-//! names of formats and fields in links, columns, JSON – is never translated.
+//! later, and what a field of a layout means is asked for by [`meaning`]. What programs read –
+//! names of formats and fields in links, columns, JSON – is never translated; what is made for them
+//! out of texts is made [`in_english`].
 //!
 //! ```
 //! use encoderscope::{language::{self, Catalogue, t}, text};
@@ -90,16 +91,19 @@ pub const fn msg(english: &'static str) -> &'static str {
     english
 }
 
-/// What a field of a format means, looked up as `format.field`.
+/// A text that is put together from the lines of a doc, such as what a field means.
 #[must_use]
-pub fn field(format: &str, field: &str, english: String) -> String {
-    match spoken() {
-        Some(catalogue) => {
-            let found = catalogue.get(&[format, ".", field].concat());
-            found.map_or(english, ToOwned::to_owned)
-        }
-        None => english,
-    }
+pub fn meaning(english: String) -> String {
+    let found = spoken().and_then(|catalogue| catalogue.get(&english));
+    found.map_or(english, ToOwned::to_owned)
+}
+
+/// What `say` makes while English is spoken, for what programs read.
+pub fn in_english<T>(say: impl FnOnce() -> T) -> T {
+    let spoke = SPEAKS.swap(false, Ordering::Relaxed);
+    let said = say();
+    SPEAKS.store(spoke, Ordering::Relaxed);
+    said
 }
 
 /// A number as people of the language write it, with their decimal mark.

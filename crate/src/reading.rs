@@ -3,8 +3,10 @@
 
 use crate::{
     bits::{self, BitString, Bits, Span},
+    language::t,
     layout::{Active, Coding, Field, Resolved, Role, StatusBit},
     profile::TurnsCode,
+    say,
 };
 use alloc::vec::Vec;
 use core::fmt;
@@ -167,34 +169,44 @@ pub enum FaultKind {
 impl fmt::Display for FaultKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Check { name, checked } => write!(
+            Self::Check { name, checked } => say!(
                 f,
-                "{name} is 0x{:02X}, the data gives 0x{:02X}",
-                checked.received, checked.expected
+                "{} is 0x{}, the data gives 0x{}",
+                t(name),
+                format_args!("{:02X}", checked.received),
+                format_args!("{:02X}", checked.expected)
             ),
             Self::Constant {
                 name,
                 expected,
                 received,
             } => {
-                write!(f, "{name} is {received:b}, must be {expected:b}")
+                say!(
+                    f,
+                    "{} is {}, must be {}",
+                    t(name),
+                    format_args!("{received:b}"),
+                    format_args!("{expected:b}")
+                )
             }
-            Self::Wider { name } => write!(
+            Self::Wider { name } => say!(
                 f,
-                "{name} is not 0: the number is wider than the profile says"
+                "{} is not 0: the number is wider than the profile says",
+                t(name)
             ),
-            Self::Zeros { name } => write!(f, "bits of {name} that are always 0 are set"),
-            Self::Digits { name } => write!(f, "{name} has characters that are no digits"),
+            Self::Zeros { name } => say!(f, "bits of {} that are always 0 are set", t(name)),
+            Self::Digits { name } => say!(f, "{} has characters that are no digits", t(name)),
             Self::Range { name, value, most } => {
-                write!(f, "{name} is {value}, the largest is {most}")
+                say!(f, "{} is {}, the largest is {}", t(name), value, most)
             }
-            Self::Repeat { word } => write!(
+            Self::Repeat { word } => say!(
                 f,
-                "word {word} is not the first one again: the line disturbs the transmission"
+                "word {} is not the first one again: the line disturbs the transmission",
+                word
             ),
-            Self::Ambiguous => f.write_str(
+            Self::Ambiguous => f.write_str(t(
                 "the check passes, but may do so by chance: where frames begin is not certain",
-            ),
+            )),
         }
     }
 }

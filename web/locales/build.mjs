@@ -2,8 +2,10 @@
 // and writes web/pkg/LANGUAGE.json for the page.
 //
 // What is said stands in the source in English, in t("…"), msg("…"), said("…"), text!("…") and
-// say!(out, "…"), and in t('…') of scripts (crate/src/language.rs). A file of this directory has
-// English texts as names and the others as values; fields.json has formats and their fields.
+// say!(out, "…"), and in t('…') of scripts (crate/src/language.rs). The docs of layout! and choice!
+// are said too, as are the names of the rows. A file of this directory has English texts as names
+// and the others as values; names.json may have names that only the tests know
+// (tests/tests/language).
 //
 //   node web/locales/build.mjs --missing crate/src/detect      what has no translation, as JSON
 import { mkdir, readFile, readdir, writeFile } from 'node:fs/promises';
@@ -14,6 +16,9 @@ const SOURCES = ['crate/src', 'web/src', 'web/js'];
 const LANGUAGES = ['ru'];
 /** What is in a catalogue beside texts: the decimal mark. */
 const MARK = '.';
+const NAMES = 'names.json';
+/** Where choice! has docs that nothing shows. */
+const KINDS = 'crate/src/format/own/draft.rs';
 
 const ESCAPES = { n: '\n', r: '\r', t: '\t', 0: '\0', '\\': '\\', '"': '"', "'": "'" };
 
@@ -36,6 +41,18 @@ const texts = (source, rust) =>
     .filter((text) => text !== undefined)
     .map(unescaped);
 
+// What layout! and choice! make of docs, and the names of the rows.
+const TABLES = /\b(?:layout|choice)! \{\n([^]*?)\n\}/g;
+const ROW = /((?:^ *\/\/\/.*\n)+) *(?:(\w+): [A-Z]\w*\[|\w+ = "|(pub) static)/gm;
+const line = (doc) => doc.replace(/^ *\/\/\/ ?/gm, '').trim().split('\n').map((part) => part.trim()).join(' ');
+const title = (doc) => line(doc).replace(/\.*$/, '').replace(/[`*]/g, '');
+
+/** The docs of tables, and the names of their rows. */
+const docs = (source) =>
+  [...source.matchAll(TABLES)]
+    .flatMap(([, table]) => [...table.matchAll(ROW)])
+    .flatMap(([, doc, name, isTable]) => (isTable ? [title(doc)] : name ? [line(doc), name] : [line(doc)]));
+
 /** The files below a directory. */
 const below = async (path) => {
   const entries = await readdir(top + path, { withFileTypes: true });
@@ -52,22 +69,21 @@ const said = async () => {
   for (const file of files) {
     // The module itself names what others say.
     if (file === 'crate/src/language.rs') continue;
-    for (const text of texts(await readFile(top + file, 'utf8'), file.endsWith('.rs'))) {
+    const source = await readFile(top + file, 'utf8');
+    const tables = file === KINDS ? [] : docs(source);
+    for (const text of [...texts(source, file.endsWith('.rs')), ...tables]) {
       if (text && !found.has(text)) found.set(text, file);
     }
   }
   return found;
 };
 
-/** What a language has, as [English, other]; a field of a format is `format.field`. */
+/** What a language has, as [English, other, file]. */
 const translations = async (language) => {
   const found = [];
   for (const name of (await readdir(new URL(`${language}/`, import.meta.url))).sort()) {
     const file = JSON.parse(await readFile(new URL(`${language}/${name}`, import.meta.url), 'utf8'));
-    for (const [key, value] of Object.entries(file)) {
-      if (typeof value === 'string') found.push([key, value, name]);
-      else for (const [field, text] of Object.entries(value)) found.push([`${key}.${field}`, text, name]);
-    }
+    found.push(...Object.entries(file).map(([key, value]) => [key, value, name]));
   }
   return found;
 };
@@ -87,12 +103,11 @@ for (const language of LANGUAGES) {
   for (const [key, value, file] of list) {
     if (known.has(key) && known.get(key) !== value) faults.push(`${language}/${file}: ${JSON.stringify(key)} is there twice`);
     known.set(key, value);
-    const isField = /^[a-z0-9-]+\.[a-z0-9_-]+$/.test(key);
-    if (key !== MARK && !isField && !english.has(key)) {
+    if (key !== MARK && file !== NAMES && !english.has(key)) {
       faults.push(`${language}/${file}: nothing says ${JSON.stringify(key)}`);
     }
     if (!value) faults.push(`${language}/${file}: ${JSON.stringify(key)} is empty`);
-    if (!isField && places(key) !== places(value)) {
+    if (places(key) !== places(value)) {
       faults.push(`${language}/${file}: ${JSON.stringify(key)} has other values than ${JSON.stringify(value)}`);
     }
   }

@@ -29,6 +29,7 @@ use crate::{
     bits::Bits,
     check::Checksum,
     decode::Shapes,
+    language::msg,
     layout::{Active, Check, Shape, layout},
     profile::{Justify, Profile, StatusActive},
 };
@@ -64,7 +65,7 @@ pub const SPEC: Spec = Spec {
 
 /// Clock and pause (MPP and PT, "BISS-C", timing parameters and note 1).
 pub const TIMING: Timing = Timing {
-    source: "MPP and PT, BiSS-C timing",
+    source: msg("MPP and PT, BiSS-C timing"),
     slowest: 120_000,
     fastest: 2_500_000,
     beyond: Beyond::Compensated {
@@ -73,9 +74,9 @@ pub const TIMING: Timing = Timing {
     timeout: 10 * MICROSECOND,
     // Only a typical value is given, but it must be over when the pause is.
     returns: (0, 20 * MICROSECOND),
-    timeout_text: "t_M = 10 µs",
+    timeout_text: msg("t_M = 10 µs"),
     pause: 20 * MICROSECOND,
-    pause_text: "t_P = 20 µs",
+    pause_text: msg("t_P = 20 µs"),
     words: Words::Once,
     // MPP and PT, characteristics: update frequency.
     positions: Positions::Of(50_000),

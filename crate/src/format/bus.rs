@@ -23,6 +23,7 @@
 use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding};
 use crate::{
     check::Checksum,
+    language::msg,
     layout::{Check, Layout, Resolved, Shape, Weight, layout},
     profile::{Parity, Profile},
     reading::Values,
@@ -91,9 +92,9 @@ impl Operation {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
-            Self::Get => "position and status",
-            Self::SetZero => "set zero",
-            Self::SetAddress => "set address",
+            Self::Get => msg("position and status"),
+            Self::SetZero => msg("set zero"),
+            Self::SetAddress => msg("set address"),
         }
     }
 

@@ -24,8 +24,10 @@ pub use shipped::{SHIPPED, Shipped};
 use super::{Format, Limits, Link, Spec, biss_c, said, ssi};
 use crate::{
     check::{Algorithm, Checksum, OwnCrc},
+    language::msg,
     layout::{Check, Cover, Layout, Piece, Row, Shape, StatusBit, Width},
     profile::{Justify, Profile},
+    text,
 };
 use alloc::{
     boxed::Box,
@@ -45,7 +47,7 @@ pub(super) const INTERVAL: u64 = 1_000;
 /// A user's layout.
 pub const SPEC: Spec = Spec {
     name: "own",
-    title: "own layout",
+    title: msg("own layout"),
     about: said("a layout that comes with the program, or that a user wrote"),
     source: said("the user"),
     link: Link::Clocked,
@@ -223,7 +225,7 @@ pub fn of(text: &str) -> Result<&'static Own, String> {
         }
         place = &kept.next;
     }
-    Err(format!("more than {MOST_LAYOUTS} different layouts"))
+    Err(text!("more than {} different layouts", MOST_LAYOUTS))
 }
 
 fn build(written: &Written, text: &str) -> Result<Own, String> {

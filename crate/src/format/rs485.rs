@@ -23,6 +23,7 @@
 use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding};
 use crate::{
     check::Checksum,
+    language::msg,
     layout::{Check, Layout, layout},
     profile::Profile,
 };
@@ -89,11 +90,11 @@ impl Command {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
-            Self::Zero => "set zero",
-            Self::Position => "position",
-            Self::Status => "position and status",
-            Self::Speed => "position and speed",
-            Self::Temperature => "position and temperature",
+            Self::Zero => msg("set zero"),
+            Self::Position => msg("position"),
+            Self::Status => msg("position and status"),
+            Self::Speed => msg("position and speed"),
+            Self::Temperature => msg("position and temperature"),
         }
     }
 

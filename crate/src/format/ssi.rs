@@ -27,6 +27,7 @@ use super::{
 use crate::{
     bits::Bits,
     decode::Shapes,
+    language::msg,
     layout::{Shape, layout},
     profile::{Justify, Profile},
 };
@@ -51,7 +52,7 @@ pub const SPEC: Spec = Spec {
 
 /// Clock and pause (MPP and PT, "SSI", timing parameters and note 1).
 pub const TIMING: Timing = Timing {
-    source: "MPP and PT, SSI timing",
+    source: msg("MPP and PT, SSI timing"),
     slowest: 110_000,
     fastest: 1_500_000,
     beyond: Beyond::FirstLow {
@@ -61,9 +62,9 @@ pub const TIMING: Timing = Timing {
     timeout: 10 * MICROSECOND,
     // Only a typical value is given, but it must be over when the pause is.
     returns: (0, 20 * MICROSECOND),
-    timeout_text: "t_M = 10 µs",
+    timeout_text: msg("t_M = 10 µs"),
     pause: 20 * MICROSECOND,
-    pause_text: "t_P = 20 µs",
+    pause_text: msg("t_P = 20 µs"),
     words: Words::Once,
     // MPP and PT, characteristics: update frequency.
     positions: Positions::Of(50_000),

@@ -27,6 +27,7 @@ use super::{
 };
 use crate::{
     check::Checksum,
+    language::msg,
     layout::{Check, layout},
     profile::Profile,
 };
@@ -56,15 +57,15 @@ pub const SPEC: Spec = Spec {
 
 /// Clock and pause (IP-75, 5.4.1, figure 8 and its notes).
 pub const TIMING: Timing = Timing {
-    source: "IP-75, 5.4.1",
+    source: msg("IP-75, 5.4.1"),
     slowest: 100_000,
     fastest: 2_000_000,
     beyond: Beyond::Never,
     timeout: 20 * MICROSECOND,
     returns: (19 * MICROSECOND, 21 * MICROSECOND),
-    timeout_text: "T_mu = 20 ± 1 µs",
+    timeout_text: msg("T_mu = 20 ± 1 µs"),
     pause: 21 * MICROSECOND,
-    pause_text: "T_mu = 20 ± 1 µs, which the gap must exceed",
+    pause_text: msg("T_mu = 20 ± 1 µs, which the gap must exceed"),
     words: Words::Once,
     // IP-75, table 1.
     positions: Positions::MoreThan(10_000),

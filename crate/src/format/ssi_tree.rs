@@ -31,6 +31,7 @@ use crate::{
     bits::Bits,
     check::Checksum,
     decode::Shapes,
+    language::msg,
     layout::{Check, Shape, layout},
     profile::{Align, Code, Justify, Parity, Profile},
 };
@@ -38,7 +39,7 @@ use crate::{
 /// SSI fir-tree.
 pub const SPEC: Spec = Spec {
     name: "ssi-tree",
-    title: "SSI fir-tree",
+    title: msg("SSI fir-tree"),
     about: said("the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others"),
     source: said("P+F article, tables 1 and 4"),
     link: Link::Clocked,
@@ -71,15 +72,15 @@ pub const SPEC: Spec = Spec {
 
 /// Clock and pause (P+F article, figure 2; table 6, "0.1…1.5 Mbit/s").
 pub const TIMING: Timing = Timing {
-    source: "P+F article, figure 2 and table 6",
+    source: msg("P+F article, figure 2 and table 6"),
     slowest: 100_000,
     fastest: 1_500_000,
     beyond: Beyond::Never,
     timeout: 20 * MICROSECOND,
     returns: (10 * MICROSECOND, 30 * MICROSECOND),
-    timeout_text: "t_m = 20 ± 10 µs",
+    timeout_text: msg("t_m = 20 ± 10 µs"),
     pause: 30 * MICROSECOND,
-    pause_text: "t_m = 20 ± 10 µs, which the pause must exceed",
+    pause_text: msg("t_m = 20 ± 10 µs, which the pause must exceed"),
     words: Words::Ring,
     // The article names none.
     positions: Positions::Unsaid,

@@ -5,11 +5,12 @@
 
 use crate::{
     bits,
+    language::{msg, t},
     layout::{Active, Class, Role},
     profile::{Choice, choice},
+    text,
 };
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -90,22 +91,22 @@ impl Kind {
     #[must_use]
     pub const fn doc(self) -> &'static str {
         match self {
-            Self::Turns => "Whole turns.",
-            Self::Angle => "Angle within one turn.",
-            Self::Error => "Says that the position is not valid.",
-            Self::Warning => "Says that something is near its limit; the position is valid.",
-            Self::Valid => "Says that the position is valid.",
-            Self::ZeroDefault => "Says that no zero has been set.",
-            Self::Status => "Status bits.",
-            Self::Temperature => "Temperature in tenths of a degree Celsius.",
-            Self::Speed => "Speed in tenths of a revolution per second.",
-            Self::Count => "A count.",
-            Self::Const => "The same in every frame.",
-            Self::Zeros => "Always 0.",
-            Self::Skip => "Carries nothing that is read.",
-            Self::Crc => "Checksum.",
-            Self::Even => "Makes the number of ones even.",
-            Self::Odd => "Makes the number of ones odd.",
+            Self::Turns => msg("Whole turns."),
+            Self::Angle => msg("Angle within one turn."),
+            Self::Error => msg("Says that the position is not valid."),
+            Self::Warning => msg("Says that something is near its limit; the position is valid."),
+            Self::Valid => msg("Says that the position is valid."),
+            Self::ZeroDefault => msg("Says that no zero has been set."),
+            Self::Status => msg("Status bits."),
+            Self::Temperature => msg("Temperature in tenths of a degree Celsius."),
+            Self::Speed => msg("Speed in tenths of a revolution per second."),
+            Self::Count => msg("A count."),
+            Self::Const => msg("The same in every frame."),
+            Self::Zeros => msg("Always 0."),
+            Self::Skip => msg("Carries nothing that is read."),
+            Self::Crc => msg("Checksum."),
+            Self::Even => msg("Makes the number of ones even."),
+            Self::Odd => msg("Makes the number of ones odd."),
         }
     }
 
@@ -164,9 +165,10 @@ impl FromStr for Framing {
             ("stream", _) => Ok(Self::Stream),
             (_, Some(digits)) => poll(digits)
                 .map(Self::Poll)
-                .map_err(|_| format!("\"{digits}\" is not a byte in hexadecimal")),
-            _ => Err(format!(
-                "\"{text}\" is no way frames come; known: line biss stream poll:BYTE"
+                .map_err(|_| text!("\"{}\" is not a byte in hexadecimal", digits)),
+            _ => Err(text!(
+                "\"{}\" is no way frames come; known: line biss stream poll:BYTE",
+                text
             )),
         }
     }
@@ -264,16 +266,18 @@ fn number(text: &str) -> Result<u64, String> {
         Some(digits) => u64::from_str_radix(digits, 16),
         None => text.parse(),
     };
-    parsed.map_err(|_| format!("\"{text}\" is not a number"))
+    parsed.map_err(|_| text!("\"{}\" is not a number", text))
 }
 
 fn name(text: &str) -> Result<String, String> {
     let text = text.trim();
     match text.chars().count() {
-        0 => Err("a name is empty".to_string()),
+        0 => Err(t("a name is empty").to_string()),
         1..=LONGEST_NAME => Ok(text.to_string()),
-        long => Err(format!(
-            "a name of {long} letters is longer than {LONGEST_NAME}"
+        long => Err(text!(
+            "a name of {} letters is longer than {}",
+            long,
+            LONGEST_NAME
         )),
     }
 }
@@ -285,7 +289,9 @@ impl FromStr for Written {
         let mut parts = text.splitn(3, ';');
         let (Some(title), Some(framing), Some(fields)) = (parts.next(), parts.next(), parts.next())
         else {
-            return Err("a layout is TITLE;line|biss|stream|poll:BYTE;FIELD,FIELD,…".to_string());
+            return Err(
+                t("a layout is TITLE;line|biss|stream|poll:BYTE;FIELD,FIELD,…").to_string(),
+            );
         };
         let title = name(title)?;
         let framing = framing.trim().parse()?;
@@ -297,11 +303,11 @@ impl FromStr for Written {
                 let field = field.trim();
                 field
                     .parse()
-                    .map_err(|why| format!("field {} ({field}): {why}", index + 1))
+                    .map_err(|why| text!("field {} ({}): {}", index + 1, field, why))
             })
             .collect::<Result<_, String>>()?;
         if fields.len() > MOST_FIELDS {
-            return Err(format!("more than {MOST_FIELDS} fields"));
+            return Err(text!("more than {} fields", MOST_FIELDS));
         }
         Ok(Self {
             title,
@@ -318,16 +324,22 @@ impl FromStr for Draft {
         let mut parts = text.split(':');
         let word = parts.next().unwrap_or_default();
         let kind = Kind::of_word(word)
-            .ok_or_else(|| format!("\"{word}\" is no kind; known: {}", Kind::WORDS.join(" ")))?;
+            .ok_or_else(|| text!("\"{}\" is no kind; known: {}", word, Kind::WORDS.join(" ")))?;
         let (least, most) = kind.widths();
         let width = match parts.next() {
             Some(width) => width
                 .parse()
-                .map_err(|_| format!("\"{width}\" is not a number of bits"))?,
+                .map_err(|_| text!("\"{}\" is not a number of bits", width))?,
             None => least,
         };
         if !(least..=most).contains(&width) {
-            return Err(format!("{width} bits are not in {least}…{most} of {word}"));
+            return Err(text!(
+                "{} bits are not in {}…{} of {}",
+                width,
+                least,
+                most,
+                word
+            ));
         }
         let mut draft = Self::new(kind, width);
         for option in parts {
@@ -339,16 +351,17 @@ impl FromStr for Draft {
             .into_iter()
             .any(|value| !fits(value))
         {
-            return Err(format!("a value has more than {width} bits"));
+            return Err(text!("a value has more than {} bits", width));
         }
         if draft.bits.len() > width as usize {
-            return Err(format!(
-                "{} names are not for {width} bits",
-                draft.bits.len()
+            return Err(text!(
+                "{} names are not for {} bits",
+                draft.bits.len(),
+                width
             ));
         }
         if kind == Kind::Crc && draft.crc.polynomial == 0 {
-            return Err("a crc needs its polynomial, for example crc:8:0x97".to_string());
+            return Err(t("a crc needs its polynomial, for example crc:8:0x97").to_string());
         }
         Ok(draft)
     }
@@ -413,8 +426,9 @@ impl Draft {
         };
         match known {
             true => Ok(()),
-            false => Err(format!(
-                "\"{option}\" says nothing about {}",
+            false => Err(text!(
+                "\"{}\" says nothing about {}",
+                option,
                 self.kind.name()
             )),
         }
