@@ -22,7 +22,7 @@ use crate::{
     bits::{self, BitString, Span},
     explain::{Note, grouped},
     format::Format,
-    language::{self, msg, t},
+    language::{msg, t},
     layout::{Layout, Resolved, Shape},
     text,
 };
@@ -203,12 +203,6 @@ impl Register {
         }
     }
 
-    /// What it is for, in a line.
-    #[must_use]
-    pub fn about(self) -> String {
-        language::field("apci-1710", self.name(), self.layout().title())
-    }
-
     /// Where it stands on a board, in bytes from the board's own address.
     ///
     /// ```
@@ -276,12 +270,10 @@ impl Register {
         let layout = self.resolved();
         let mut row = BitString::zeros(layout.len);
         row.write(Span::new(0, layout.len), value.into());
-        let format = format!("apci-1710-{}", self.name());
         let notes = layout.explain(row.as_bits()).into_iter();
         notes
             .map(|note| Note {
                 text: self.says(note.name, note.raw),
-                doc: language::field(&format, note.name, note.doc),
                 ..note
             })
             .collect()

@@ -198,7 +198,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
             number: Some(at(register) as f64),
             ..Answer::worded(name, t(title), format!("0x{:04X}", at(register)))
         }
-        .note(register.about())
+        .note(register.layout().title())
     }));
     let program = Program {
         frq,

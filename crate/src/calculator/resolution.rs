@@ -125,7 +125,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     let all = shown(all, 15);
     let width = match apart {
         0.0 => width,
-        apart if apart <= rounding => width.note(text!("{} counts, as it was shown", all)),
+        apart if apart <= rounding => width.note(text!("{} counts, as it was rounded", all)),
         _ => width.note(text!(
             "the next width above: {} bits have {} counts",
             bits,
