@@ -258,6 +258,12 @@ impl Input {
         }
     }
 
+    /// The same for people.
+    #[must_use]
+    pub fn unit_title(&self) -> String {
+        counted("", self.unit()).trim().to_string()
+    }
+
     fn read(&self, text: &str) -> Result<Entered, Fault> {
         let wrong = |message: String| Fault {
             input: self.name,
@@ -281,8 +287,7 @@ impl Input {
                 let number = quantity::parse(text, measure, unit).map_err(wrong)?;
                 let say = |bound: f64| match (measure, unit) {
                     (Measure::Address, _) => format!("0x{:X}", bound as u64),
-                    (_, "") => quantity::shown(bound, 9),
-                    (_, unit) => format!("{} {}", quantity::shown(bound, 9), t(unit)),
+                    (_, unit) => counted(&quantity::shown(bound, 9), unit),
                 };
                 if number < least {
                     return Err(wrong(text!("{} is less than {}", text, say(least))));
@@ -301,6 +306,17 @@ impl Input {
                 }
             }
         }
+    }
+}
+
+/// A number with its unit.
+fn counted(number: &str, unit: &'static str) -> String {
+    match unit {
+        "" | "°" | "′" | "″" => format!("{number}{unit}"),
+        "bits" => text!("{} bits", number),
+        "bytes" => text!("{} bytes", number),
+        "counts" => text!("{} counts", number),
+        unit => format!("{number} {}", t(unit)),
     }
 }
 
@@ -357,14 +373,7 @@ impl Outcome {
 impl Answer {
     /// A number with its unit, rounded to so many digits.
     fn of(name: &'static str, title: &str, number: f64, digits: i32, unit: &'static str) -> Self {
-        let shown = quantity::shown(number, digits);
-        let text = match unit {
-            "" | "°" | "′" | "″" => format!("{shown}{unit}"),
-            "bits" => text!("{} bits", shown),
-            "bytes" => text!("{} bytes", shown),
-            "counts" => text!("{} counts", shown),
-            unit => format!("{shown} {}", t(unit)),
-        };
+        let text = counted(&quantity::shown(number, digits), unit);
         Self {
             number: Some(number),
             ..Self::worded(name, title, text)

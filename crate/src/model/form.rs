@@ -169,13 +169,12 @@ impl Part {
             [firsts @ .., last] => text!("{} or {}", firsts.join(", "), last),
         };
         match (self.number, named.len()) {
-            (Some((least, most, unit)), 0) => text!("{} to {} {} fit", least, most, t(unit)),
+            (Some((least, most, unit)), 0) => text!("{} to {} fit", least, counted(most, unit)),
             (Some((least, most, unit)), _) => {
                 text!(
-                    "{} to {} {} fit, alone or with {} behind",
+                    "{} to {} fit, alone or with {} behind",
                     least,
-                    most,
-                    t(unit),
+                    counted(most, unit),
                     list
                 )
             }

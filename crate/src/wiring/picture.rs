@@ -276,17 +276,17 @@ fn resistors(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
         let (Some(upper), Some(lower)) = (height_of(rows, plus), height_of(rows, minus)) else {
             continue;
         };
-        let (x, label) = match (terminator.end, terminator.presence) {
-            (End::Encoder, Presence::Added) => (ENCODER.1 + 10.0, t("add")),
-            (End::Encoder, Presence::Unclear) => (ENCODER.1 - 14.0, t("inside?")),
+        let (x, text) = match (terminator.end, terminator.presence) {
+            (End::Encoder, Presence::Added) => (ENCODER.1 + 10.0, text!("{} Ω add", OHMS)),
+            (End::Encoder, Presence::Unclear) => (ENCODER.1 - 14.0, text!("{} Ω inside?", OHMS)),
             (End::Encoder, Presence::Inside | Presence::Switched) => {
-                (ENCODER.1 - 14.0, t("inside"))
+                (ENCODER.1 - 14.0, text!("{} Ω inside", OHMS))
             }
             (End::Controller, Presence::Inside | Presence::Unclear) => {
-                (OTHER.0 + 12.0, t("inside"))
+                (OTHER.0 + 12.0, text!("{} Ω inside", OHMS))
             }
-            (End::Controller, Presence::Switched) => (OTHER.0 + 12.0, t("on")),
-            (End::Controller, Presence::Added) => (OTHER.0 - 12.0, t("add")),
+            (End::Controller, Presence::Switched) => (OTHER.0 + 12.0, text!("{} Ω on", OHMS)),
+            (End::Controller, Presence::Added) => (OTHER.0 - 12.0, text!("{} Ω add", OHMS)),
         };
         let dash = match terminator.presence {
             Presence::Unclear => " stroke-dasharray=\"3 2\"",
@@ -303,7 +303,6 @@ fn resistors(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
         let ends = [(edge, lower), (x, lower), (x, middle + 11.0)];
         ink.path(&ends, "w-ink", 1.2, dash);
         ink.resistor((x, middle), dash);
-        let text = format!("{OHMS} {} {label}", t("Ω"));
         let (x, anchor) = match (terminator.end, terminator.presence) {
             (End::Encoder, Presence::Added) => (x + 9.0, ""),
             (End::Encoder, _) | (End::Controller, Presence::Added) => {

@@ -119,7 +119,7 @@ fn Field(input: &'static Input, outcome: Memo<Result<Outcome, Fault>>) -> impl I
     view! {
         <div class="asked">
             <label for=id>{t(input.title)}</label>
-            <span class="entered">{control} <span class="unit">{t(input.unit())}</span></span>
+            <span class="entered">{control} <span class="unit">{input.unit_title()}</span></span>
             <p class="hint" id=hint>{t(input.doc)}</p>
         </div>
     }

@@ -204,6 +204,7 @@ fn wire_row(wire: Wire) -> impl IntoView {
         }
     };
     let colour = wire.paint.map_or("–".to_owned(), Paint::name);
+    let shown = wire.paint.map_or("–".to_owned(), Paint::title);
     view! {
         <tr
             data-testid="wiring-row"
@@ -213,7 +214,7 @@ fn wire_row(wire: Wire) -> impl IntoView {
             data-goes=goes.clone()
         >
             <td>{wire.pin.map_or("–".to_owned(), |pin| pin.to_string())}</td>
-            <td class="words">{wire.paint.map(swatch)} " " {wire.paint.map(Paint::title).unwrap_or_else(|| "–".to_owned())}</td>
+            <td class="words">{wire.paint.map(swatch)} " " {shown}</td>
             <th scope="row">{t(wire.signal)}</th>
             <td class="words">{goes.clone()}</td>
             <td class="words doc">{t(wire.note)}</td>
