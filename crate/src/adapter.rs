@@ -6,6 +6,8 @@
 
 mod system;
 
+use crate::language::msg;
+
 pub use system::System;
 
 /// A chip.
@@ -74,7 +76,7 @@ const GREATEST: f64 = 131_071.0;
 const HIGH_SPEED: Clock = Clock::Eighths(12_000_000);
 const FULL_SPEED: Clock = Clock::Eighths(FULL);
 /// Both are as far from 2.5 Mbaud.
-const GAP: &str = "makes nothing between 2 and 3 Mbaud; drivers take one or the other";
+const GAP: &str = msg("makes nothing between 2 and 3 Mbaud; drivers take one or the other");
 
 /// Chips of common adapters.
 pub static CHIPS: &[Chip] = &[
@@ -83,7 +85,7 @@ pub static CHIPS: &[Chip] = &[
         "FT2232H",
         Some((0x0403, 0x6010)),
         HIGH_SPEED,
-        "the older FT2232D says the same of itself and does as FT232R",
+        msg("the older FT2232D says the same of itself and does as FT232R"),
     ),
     chip("FT4232H", Some((0x0403, 0x6011)), HIGH_SPEED, ""),
     chip("FT232R", Some((0x0403, 0x6001)), FULL_SPEED, GAP),
@@ -93,37 +95,37 @@ pub static CHIPS: &[Chip] = &[
         "CH340",
         Some((0x1a86, 0x7523)),
         Clock::UpTo(2_000_000),
-        "its maker's list ends at 2 Mbaud, that of the CH341 too",
+        msg("its maker's list ends at 2 Mbaud, that of the CH341 too"),
     ),
     chip(
         "CH343",
         Some((0x1a86, 0x55d3)),
         Clock::Unknown,
-        "reaches 3 Mbaud and more, the CH347 too; in which steps is not published: measure",
+        msg("reaches 3 Mbaud and more, the CH347 too; in which steps is not published: measure"),
     ),
     chip(
         "CP210x",
         Some((0x10c4, 0xea60)),
         Clock::Unknown,
-        "CP2102, CP2104 and CP2102N say the same of themselves",
+        msg("CP2102, CP2104 and CP2102N say the same of themselves"),
     ),
     chip(
         "CP2104",
         None,
         Clock::UpTo(2_000_000),
-        "its data sheet ends at 2 Mbaud, that of the CP2102 earlier",
+        msg("its data sheet ends at 2 Mbaud, that of the CP2102 earlier"),
     ),
     chip(
         "CP2102N",
         None,
         Clock::Unknown,
-        "reaches 3 Mbaud; in which steps is not established: measure",
+        msg("reaches 3 Mbaud; in which steps is not established: measure"),
     ),
     chip(
         "PL2303",
         Some((0x067b, 0x2303)),
         Clock::Unknown,
-        "many versions and copies: measure, and take another for 2.5 Mbaud",
+        msg("many versions and copies: measure, and take another for 2.5 Mbaud"),
     ),
 ];
 
