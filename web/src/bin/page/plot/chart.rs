@@ -142,8 +142,8 @@ pub(super) fn value_text(quantity: Quantity, value: f64) -> String {
         Quantity::Temperature => (6, 1),
         Quantity::Errors => (4, 0),
     };
-    let value = number(format_args!("{value:width$.places$}"));
-    let text = format!("{value}{}", t(quantity.unit()));
+    let value = format!("{value:width$.places$}");
+    let text = format!("{}{}", number(value), t(quantity.unit()));
     text.replace('-', "−")
 }
 
