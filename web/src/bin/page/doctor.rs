@@ -9,7 +9,7 @@ use encoderscope::{
     decode::Decoder,
     explain::grouped,
     format::{Format, Link as Way},
-    language::{msg, number, t},
+    language::{number, t},
     product::{Interface, Series},
     profile::Profile,
     text,
@@ -296,11 +296,13 @@ fn link_text(link: &Link, app: App) -> (&'static str, String) {
             t("The encoder talks without being asked"),
             t("It is a free-running model: choose PERIOD, ASI1 or ASI4 in the encoder settings."),
         ),
-        Link::Unfit { reason } => {
+        Link::Unfit { reason, .. } => {
             return (t("This profile has no serial line"), format!("{reason}."));
         }
-        Link::Refused { reason } => {
-            return (t("The port could not be opened"), reason.clone());
+        Link::Refused { reason, hint } => {
+            let title = t("The port could not be opened");
+            let said = [reason, hint].map(|part| t(part)).join(" ");
+            return (title, said.trim().to_owned());
         }
         Link::Lost => (
             t("The port is gone"),

@@ -97,7 +97,7 @@ impl Obstacle {
                 t("A link or another page has changed the settings. Connect to read with them.")
             }
             Self::BrokeDown => t("The reader broke down. Connect again."),
-            Self::Other(text) => text,
+            Self::Other(text) => t(text),
         };
         text.into()
     }

@@ -92,7 +92,7 @@ pub(crate) fn Standstill() -> impl IntoView {
             data-testid="standstill"
             data-value=move || shaft.with(Shaft::name)
         >
-            <h2>{t("Standstill")} " " <span>{move || shaft.with(Shaft::says)}</span></h2>
+            <h2>{t("Standstill")} <span>{move || shaft.with(Shaft::says)}</span></h2>
             <dl>
                 {row("σ", "standstill-sigma", |rest| rest.sigma, 2)}
                 {row(t("peak to peak"), "standstill-peak", |rest| rest.peak_to_peak, 0)}
