@@ -14,8 +14,8 @@ use crate::{
     plot::Trail,
     transcript::Transcript,
 };
-use asides::{Kept, Scan};
 pub(crate) use asides::RESTLESS;
+use asides::{Kept, Scan};
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
@@ -276,7 +276,9 @@ impl Tally {
             return false;
         };
         let frame = frame_of(&decoder, bytes, sure);
-        let good = frame.as_ref().is_some_and(|frame| frame.faults().is_empty());
+        let good = frame
+            .as_ref()
+            .is_some_and(|frame| frame.faults().is_empty());
         self.pace.frame(now, good);
         if let Some(frame) = &frame {
             self.take_device(now, frame, good);

@@ -3,10 +3,9 @@
 use super::{Tally, frame_of, shown};
 use crate::message::{Outcome, Progress, Setting};
 use encoderscope::{
-    language::{english, msg},
+    language::{english, msg, t},
     sequence::{Event, Holds},
     session::Micros,
-    text,
 };
 
 /// What is said when it is wanted, in the language that is spoken then.
@@ -38,12 +37,7 @@ impl Tally {
     }
 
     /// A sequence could not begin.
-    pub fn refuse(
-        &mut self,
-        now: Micros,
-        setting: Setting,
-        why: impl Fn() -> String + 'static,
-    ) {
+    pub fn refuse(&mut self, now: Micros, setting: Setting, why: impl Fn() -> String + 'static) {
         self.prepare(setting, 0);
         self.end(now, Some(false), Box::new(why));
     }
@@ -68,8 +62,8 @@ impl Tally {
                 };
                 let (stop, holds) = (*stop, *holds);
                 let words = move || match stop {
-                    Some(stop) => text!("Stopped: {}; {}.", stop, holds),
-                    None => text!("Done: {}.", holds),
+                    Some(stop) => format!("{}: {stop}; {holds}.", t("Stopped")),
+                    None => format!("{}: {holds}.", t("Done")),
                 };
                 self.end(now, changed, Box::new(words));
             }

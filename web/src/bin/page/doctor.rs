@@ -98,7 +98,11 @@ fn ladder(app: App) -> Vec<Rung> {
             },
             answer_text(&snapshot),
         ),
-        ("frames", t("Frames stand out"), rate_text(&snapshot, &profile)),
+        (
+            "frames",
+            t("Frames stand out"),
+            rate_text(&snapshot, &profile),
+        ),
         (
             "checks",
             t("Checks hold"),
@@ -211,7 +215,12 @@ fn answer_text(snapshot: &Snapshot) -> String {
     let gap = snapshot
         .gap
         .filter(|gap| *gap >= 1.0 && snapshot.latency.is_some())
-        .map(|gap| text!("pauses of {} ms within replies", number(format_args!("{gap:.1}"))));
+        .map(|gap| {
+            text!(
+                "pauses of {} ms within replies",
+                number(format_args!("{gap:.1}"))
+            )
+        });
     let parts = [latency, p99, echo, gap];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
 }

@@ -35,12 +35,7 @@ fn trial_text(trial: &Trial) -> String {
         0.0 => t("silent").into(),
         bytes => text!("{} bytes", grouped(bytes as u64)),
     };
-    text!(
-        "{} baud · {} · {}",
-        grouped(trial.baud.into()),
-        what,
-        came
-    )
+    text!("{} baud · {} · {}", grouped(trial.baud.into()), what, came)
 }
 
 /// The search, while it runs and afterwards.

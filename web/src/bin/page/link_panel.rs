@@ -31,7 +31,9 @@ pub(crate) fn LinkPanel() -> impl IntoView {
     let title = move || match app.source.get() {
         Source::Port => {
             app.ports.track();
-            app.port.get().map_or_else(|| t("Serial port").into(), adapters::name)
+            app.port
+                .get()
+                .map_or_else(|| t("Serial port").into(), adapters::name)
         }
         Source::Demo | Source::Preview => t("Demo encoder").into(),
         Source::Replay => t("Recording").into(),

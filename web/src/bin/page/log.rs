@@ -104,7 +104,12 @@ fn Row(
     choose: impl Fn(usize) + Copy + Send + Sync + 'static,
 ) -> impl IntoView {
     let shape = Memo::new(move |_| log.with(|log| log.get(index).map(Shape::of)));
-    let time = move || log.with(|log| log.get(index).map(|entry| number(format_args!("{:.4}", entry.time)).to_string()));
+    let time = move || {
+        log.with(|log| {
+            log.get(index)
+                .map(|entry| number(format_args!("{:.4}", entry.time)).to_string())
+        })
+    };
     let byte = move |place: usize| {
         log.with(|log| {
             let (byte, _) = log.get(index)?.bytes.get(place)?;

@@ -209,7 +209,11 @@ impl View {
                         .collect()
                 }
                 _ => {
-                    let label = if cursor.is_some() { t("cursor") } else { t("mark") };
+                    let label = if cursor.is_some() {
+                        t("cursor")
+                    } else {
+                        t("mark")
+                    };
                     let values = traces.filter_map(|trace| {
                         Some((
                             t(trace.quantity.name()),

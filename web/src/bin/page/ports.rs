@@ -67,24 +67,24 @@ impl Obstacle {
     /// What it is, and what to do about it.
     pub(crate) fn text(&self) -> String {
         let text = match self {
-            Self::NoApi => {
-                t("This browser has no Web Serial. Chrome, Edge or another Chromium browser on a \
-                   computer can read the encoder. The demo and the decoder work here.")
-            }
-            Self::Insecure => {
-                t("This page came over plain http, where browsers give no access to serial ports. \
-                   Open it over https or from localhost. The demo and the decoder work here.")
-            }
-            Self::Blocked => {
-                t("A policy blocks serial ports on this page: ask who manages this computer, or, \
+            Self::NoApi => t(
+                "This browser has no Web Serial. Chrome, Edge or another Chromium browser on a \
+                   computer can read the encoder. The demo and the decoder work here.",
+            ),
+            Self::Insecure => t(
+                "This page came over plain http, where browsers give no access to serial ports. \
+                   Open it over https or from localhost. The demo and the decoder work here.",
+            ),
+            Self::Blocked => t(
+                "A policy blocks serial ports on this page: ask who manages this computer, or, \
                    where the page stands in a frame, let the frame allow \u{201c}serial\u{201d}. The \
-                   demo and the decoder work here.")
-            }
+                   demo and the decoder work here.",
+            ),
             Self::NothingChosen => t("No port was chosen."),
-            Self::NotPluggedIn => {
-                t("The adapter is not plugged in, or this page may no longer use it. Plug it in, or \
-                   choose or add a port.")
-            }
+            Self::NotPluggedIn => t(
+                "The adapter is not plugged in, or this page may no longer use it. Plug it in, or \
+                   choose or add a port.",
+            ),
             Self::RateNotMade(nearest) => {
                 return text!(
                     "The chip of this adapter does not make this baud rate: its driver would take \

@@ -57,9 +57,7 @@ fn meaning(setting: Setting) -> &'static str {
         Setting::Address(_) => {
             t("Every device on the wire hears this and takes the new address: connect only one.")
         }
-        Setting::Memory { .. } => {
-            t("The byte is stored in the encoder and stays without power.")
-        }
+        Setting::Memory { .. } => t("The byte is stored in the encoder and stays without power."),
     }
 }
 
@@ -161,7 +159,10 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
         rest && fits && app.snapshot.with(free)
     };
     let gate = move || match moved.get() {
-        None => ("lamp idle", t("waiting for a second of readings").to_owned()),
+        None => (
+            "lamp idle",
+            t("waiting for a second of readings").to_owned(),
+        ),
         Some(moved) if moved < STILL => ("lamp good", t("the shaft stands still").to_owned()),
         Some(moved) => (
             "lamp bad",
