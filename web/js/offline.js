@@ -22,17 +22,26 @@ export const recording = (runs) => {
 
 /** Says that a new version is there. */
 const show = (registration) => {
-  const button = Object.assign(document.createElement('button'), { textContent: t('Use it now') });
+  const button = document.createElement('button');
   button.dataset.testid = 'update-now';
   const why = document.createElement('span');
   const box = Object.assign(document.createElement('p'), { className: 'update', role: 'status' });
   box.dataset.testid = 'update';
-  box.append(t('A new version is ready. '), button, why);
-  document.querySelector('header').append(box);
+
+  /** Says it at the end of the header, which is made anew with the language. */
+  const say = () => {
+    button.textContent = t('Use it now');
+    why.textContent = button.disabled ? t('Not while a recording runs.') : '';
+    box.replaceChildren(t('A new version is ready. '), button, why);
+    document.querySelector('header').append(box);
+  };
+  say();
+  const spoken = new MutationObserver(() => requestAnimationFrame(say));
+  spoken.observe(document.documentElement, { attributeFilter: ['lang'] });
 
   const allow = (allowed) => {
     button.disabled = !allowed;
-    why.textContent = allowed ? '' : t('Not while a recording runs.');
+    say();
   };
 
   /** Does something where nothing is recorded; else the button is off until that has ended. */

@@ -64,7 +64,7 @@ fn digits(shown: &Shown) -> (String, String) {
 #[component]
 pub(crate) fn AngleDigits(#[prop(into)] shown: Signal<Option<Shown>>) -> impl IntoView {
     let text = Memo::new(move |_| {
-        let none = || ("–––.–––".into(), String::new());
+        let none = || (number("–––.–––").to_string(), String::new());
         shown.get().as_ref().map_or_else(none, digits)
     });
     view! {
