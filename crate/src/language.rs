@@ -80,9 +80,17 @@ fn spoken() -> Option<&'static Catalogue> {
 
 /// A text in the language that is spoken; English where the catalogue has none.
 #[must_use]
-pub fn t(english: &'static str) -> &'static str {
+pub fn t(english: &str) -> &str {
     let found = spoken().and_then(|catalogue| catalogue.get(english));
     found.unwrap_or(english)
+}
+
+/// What `say` says in English, whatever is spoken: for files that others read.
+pub fn english<T>(say: impl FnOnce() -> T) -> T {
+    let speaks = SPEAKS.swap(false, Ordering::Relaxed);
+    let said = say();
+    SPEAKS.store(speaks, Ordering::Relaxed);
+    said
 }
 
 /// Marks a text that [`t`] is asked for later.

@@ -18,7 +18,7 @@ pub use recorder::{Digest, Kept, Place, RecorderState, Recording, Replay, Story}
 pub use search::{Found, Search, SearchStage, Trial};
 pub use wish::{Answer, Wish};
 
-use encoderscope::sequence::Change;
+use encoderscope::{language::msg, sequence::Change};
 use js_sys::Array;
 use serde::{Deserialize, Serialize};
 use wasm_bindgen::JsValue;
@@ -143,6 +143,19 @@ pub enum LogFilter {
 }
 
 impl Setting {
+    /// One of each kind.
+    pub const KINDS: [Self; 6] = [
+        Self::Zero,
+        Self::ResetAngle,
+        Self::ResetTurns,
+        Self::ResetErrors,
+        Self::Address(0),
+        Self::Memory {
+            address: 0,
+            data: 0,
+        },
+    ];
+
     /// The sequence that makes it.
     #[must_use]
     pub const fn change(self) -> Change {
@@ -160,12 +173,12 @@ impl Setting {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Zero => "set zero",
-            Self::ResetAngle => "reset angle",
-            Self::ResetTurns => "reset turns",
-            Self::ResetErrors => "reset errors",
-            Self::Address(_) => "set address",
-            Self::Memory { .. } => "EEPROM write",
+            Self::Zero => msg("set zero"),
+            Self::ResetAngle => msg("reset angle"),
+            Self::ResetTurns => msg("reset turns"),
+            Self::ResetErrors => msg("reset errors"),
+            Self::Address(_) => msg("set address"),
+            Self::Memory { .. } => msg("EEPROM write"),
         }
     }
 
@@ -268,13 +281,19 @@ pub enum Link {
     },
     /// The profile cannot be read over a serial port.
     Unfit {
+        /// It, as the parameters of a link.
+        #[serde(default)]
+        profile: String,
         /// Why.
         reason: String,
     },
     /// The port could not be opened.
     Refused {
-        /// Why, and what to do about it.
+        /// Why, in English; perhaps in the browser's words.
         reason: String,
+        /// What to do about it, in English.
+        #[serde(default)]
+        hint: String,
     },
     /// The port went away.
     Lost,
@@ -285,20 +304,20 @@ impl Link {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
-            Self::Closed => "closed",
-            Self::Opening => "opening",
-            Self::Waiting => "waiting",
-            Self::Reading => "reading",
-            Self::Silent { echo: false } => "silent",
-            Self::Silent { echo: true } => "echo-only",
-            Self::Searching => "searching",
-            Self::Garbage => "garbage",
-            Self::Failing => "failing",
-            Self::OtherProfile { .. } => "other-profile",
-            Self::Unasked { .. } => "unasked",
-            Self::Unfit { .. } => "unfit",
-            Self::Refused { .. } => "refused",
-            Self::Lost => "lost",
+            Self::Closed => msg("closed"),
+            Self::Opening => msg("opening"),
+            Self::Waiting => msg("waiting"),
+            Self::Reading => msg("reading"),
+            Self::Silent { echo: false } => msg("silent"),
+            Self::Silent { echo: true } => msg("echo-only"),
+            Self::Searching => msg("searching"),
+            Self::Garbage => msg("garbage"),
+            Self::Failing => msg("failing"),
+            Self::OtherProfile { .. } => msg("other-profile"),
+            Self::Unasked { .. } => msg("unasked"),
+            Self::Unfit { .. } => msg("unfit"),
+            Self::Refused { .. } => msg("refused"),
+            Self::Lost => msg("lost"),
         }
     }
 

@@ -14,8 +14,8 @@ use crate::{
     plot::Trail,
     transcript::Transcript,
 };
-use asides::Kept;
 pub(crate) use asides::RESTLESS;
+use asides::{Kept, Scan};
 use encoderscope::{
     bits,
     decode::{Decoder, Frame},
@@ -26,6 +26,7 @@ use encoderscope::{
 };
 use log::{Kind, Log, Seen};
 use pace::Pace;
+use settings::Words;
 use shaft::{FEWEST, Place};
 use std::collections::VecDeque;
 use story::Story;
@@ -66,8 +67,10 @@ pub struct Tally {
     places: VecDeque<Place>,
     pace: Pace,
     progress: Option<Progress>,
+    /// How it ended.
+    ending: Option<Words>,
     devices: Vec<Kept>,
-    scan: Option<String>,
+    scan: Option<Scan>,
     search: Option<Search>,
     memory: Option<Cell>,
     /// What the plot shows.
@@ -105,6 +108,7 @@ impl Tally {
             places: VecDeque::new(),
             pace: Pace::default(),
             progress: None,
+            ending: None,
             devices: Vec::new(),
             scan: None,
             search: None,
@@ -122,6 +126,7 @@ impl Tally {
         let next = Self::new(now, Transcript::default());
         let before = std::mem::replace(self, next);
         self.progress = before.progress;
+        self.ending = before.ending;
         self.log.filter = before.log.filter;
         self.transcript = before.transcript;
         self.story = before.story;
@@ -231,7 +236,7 @@ impl Tally {
             Output::Transmit(bytes) => {
                 self.transcript.sent(now, bytes, None);
                 self.pace.request();
-                self.remember(now, bytes, Kind::Asked, String::new());
+                self.remember(now, bytes, Kind::Asked);
             }
             Output::Silent { .. } => {
                 self.counts.silent += 1.0;
@@ -240,7 +245,7 @@ impl Tally {
             }
             Output::Skip { bytes, why } => {
                 self.counts.skipped += bytes.len() as f64;
-                self.remember(now, bytes, Kind::Skip, why.to_string());
+                self.remember(now, bytes, Kind::Skip(*why));
             }
             Output::Frame {
                 bytes,
@@ -271,11 +276,9 @@ impl Tally {
             return false;
         };
         let frame = frame_of(&decoder, bytes, sure);
-        let text = match &frame {
-            Some(frame) => frame.faults().first().map(|fault| fault.kind.to_string()),
-            None => Some("no frame of this format".into()),
-        };
-        let good = text.is_none();
+        let good = frame
+            .as_ref()
+            .is_some_and(|frame| frame.faults().is_empty());
         self.pace.frame(now, good);
         if let Some(frame) = &frame {
             self.take_device(now, frame, good);
@@ -305,12 +308,7 @@ impl Tally {
             }
         }
         self.decoder = Some(decoder);
-        self.remember(
-            now,
-            bytes,
-            Kind::Frame { sure, good },
-            text.unwrap_or_default(),
-        );
+        self.remember(now, bytes, Kind::Frame { sure, good });
         good
     }
 
@@ -355,13 +353,12 @@ impl Tally {
         self.fresh = true;
     }
 
-    fn remember(&mut self, at: Micros, bytes: &[u8], kind: Kind, text: String) {
+    fn remember(&mut self, at: Micros, bytes: &[u8], kind: Kind) {
         self.pass();
         self.log.push(Seen {
             at,
             bytes: bytes.into(),
             kind,
-            text,
         });
     }
 
@@ -404,7 +401,7 @@ impl Tally {
                 Echo::Present => Some(true),
             },
             moved: self.moved(now),
-            progress: self.progress.clone(),
+            progress: self.progress(),
             turning: self.trail.turning(),
             error_rate: self.pace.error_rate(now),
             byte_rate: self.pace.byte_rate(now),
@@ -415,7 +412,7 @@ impl Tally {
                 .map(|device| device.shown(now))
                 .collect(),
             watched: self.watched(),
-            scan: self.scan.clone(),
+            scan: self.scan.as_ref().map(Scan::says),
             search: self.search.clone(),
             memory: self.memory,
             ..Snapshot::default()

@@ -5,6 +5,7 @@ use super::{
     ending::{refused, shut},
     run::{Run, Wire},
     talk::Talk,
+    unfit,
 };
 use crate::{
     browser::{now, pause},
@@ -37,7 +38,7 @@ impl Engine {
         let interval = self.state.borrow().interval;
         let session = match Self::session(profile, interval) {
             Ok(made) => made,
-            Err(reason) => return self.set_link(Link::Unfit { reason }),
+            Err(_) => return self.set_link(unfit(profile)),
         };
         self.set_link(Link::Opening);
         let baud = session.decoder().profile().baud;

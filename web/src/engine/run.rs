@@ -13,10 +13,12 @@ use encoderscope::{
     doctor::{Doctor, Finding},
     emulator::Emulator,
     finder::{self, Finder},
+    language::{msg, t},
     profile::Profile,
     recording::Purpose,
     sequence::{Change, Event, Holds, Runner},
     session::{Micros, Output, Session},
+    text,
 };
 
 /// So late a step is only made after the tab was frozen or the machine asleep.
@@ -24,7 +26,7 @@ const ASLEEP: Micros = 1_000_000;
 
 /// How a setting ends that is broken off before its first command.
 pub(super) const UNBEGUN: &str =
-    "Stopped: it was broken off. Nothing was sent that changes an encoder.";
+    msg("Stopped: it was broken off. Nothing was sent that changes an encoder.");
 
 /// An open link.
 pub(super) struct Run {
@@ -179,8 +181,10 @@ impl Run {
                 // Another device may have been connected meanwhile.
                 Some(Talk::Scan(_, after)) => {
                     if let After::Set(setting) = after {
-                        let why = "Broken off, for the page slept. Nothing was sent that changes an encoder.";
-                        tally.refuse(now, *setting, why);
+                        let why = msg(
+                            "Broken off, for the page slept. Nothing was sent that changes an encoder.",
+                        );
+                        tally.refuse(now, *setting, move || t(why).into());
                     }
                     self.talk = None;
                 }
@@ -278,7 +282,9 @@ impl Run {
                     tally.follow(now, &event);
                 }
             }
-            Some(Talk::Scan(_, After::Set(setting))) => tally.refuse(now, *setting, UNBEGUN),
+            Some(Talk::Scan(_, After::Set(setting))) => {
+                tally.refuse(now, *setting, || t(UNBEGUN).into());
+            }
             _ => {}
         }
     }
@@ -398,7 +404,11 @@ impl Run {
                 if alone && finder.disturbed().is_empty() && !finder.is_restless() {
                     self.set(setting, at, tally);
                 } else {
-                    tally.refuse(at, setting, &not_alone(addresses, finder));
+                    let addresses = addresses.to_vec();
+                    let disturbed = finder.disturbed().to_vec();
+                    let restless = finder.is_restless();
+                    let why = move || not_alone(&addresses, &disturbed, restless);
+                    tally.refuse(at, setting, why);
                 }
             }
         }
@@ -415,11 +425,9 @@ impl Run {
                 tally.begin(now, setting, runner.total());
                 self.talk = Some(Talk::Set(setting, Box::new(runner)));
             }
-            None => tally.refuse(
-                now,
-                setting,
-                "This encoder has no such sequence. Nothing was sent.",
-            ),
+            None => tally.refuse(now, setting, || {
+                t("This encoder has no such sequence. Nothing was sent.").into()
+            }),
         }
     }
 
@@ -463,27 +471,29 @@ impl Run {
 }
 
 /// Why the address cannot be set.
-fn not_alone(addresses: &[u8], finder: &Finder) -> String {
+fn not_alone(addresses: &[u8], disturbed: &[u8], restless: bool) -> String {
     let list = |addresses: &[u8]| {
         let list: Vec<String> = addresses.iter().map(ToString::to_string).collect();
         list.join(", ")
     };
-    let disturbed = finder.disturbed();
     let why = match (addresses, disturbed) {
-        _ if finder.is_restless() => RESTLESS.to_owned(),
-        ([], []) => "No device answered the scan.".to_owned(),
+        _ if restless => t(RESTLESS).to_owned(),
+        ([], []) => t("No device answered the scan.").to_owned(),
         (_, []) if addresses.len() > 1 => {
-            format!(
+            text!(
                 "{} devices answer, at {}.",
                 addresses.len(),
                 list(addresses)
             )
         }
-        (_, []) => format!("The device answers at {} now.", list(addresses)),
-        _ => format!(
+        (_, []) => text!("The device answers at {} now.", list(addresses)),
+        _ => text!(
             "What answers at {} is damaged: two devices may share the address.",
             list(disturbed)
         ),
     };
-    format!("{why} Connect exactly one device, then try again. Nothing was sent.")
+    text!(
+        "{} Connect exactly one device, then try again. Nothing was sent.",
+        why
+    )
 }

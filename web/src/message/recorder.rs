@@ -29,7 +29,7 @@ pub struct Recording {
     pub copy: Option<String>,
     /// It runs.
     pub runs: bool,
-    /// Why it was ended, where the user did not.
+    /// Why it was ended, where the user did not; in English.
     pub fault: Option<String>,
 }
 
@@ -93,12 +93,14 @@ impl Kept {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Story {
-    /// Each with its time in milliseconds since 1970.
+    /// Each with its time in milliseconds since 1970, in English.
     pub happenings: Vec<(f64, String)>,
     /// What is kept of the line: how many bytes.
     pub size: f64,
     /// For how many seconds they go back.
     pub seconds: f64,
+    /// What the page shows now, in English.
+    pub snapshot: Box<Snapshot>,
 }
 
 /// What a recording comes to.

@@ -1,7 +1,7 @@
 //! What happened of late: how the link was, which status bits came and went, what was set.
 
 use super::{Tally, frame_of};
-use encoderscope::{bits, session::Micros};
+use encoderscope::{bits, language::msg, session::Micros};
 use std::collections::VecDeque;
 
 /// Happenings that are kept.
@@ -28,12 +28,12 @@ impl Story {
 }
 
 impl Tally {
-    /// Something happened.
+    /// Something happened; said in English.
     pub fn happened(&mut self, now: Micros, text: String) {
         self.story.push(self.transcript.absolute(now), text);
     }
 
-    /// Something happened that the transcript should tell, too.
+    /// Something happened that the transcript should tell, too; said in English.
     pub fn note(&mut self, now: Micros, text: &str) {
         self.transcript.mark(now, text);
         self.happened(now, text.into());
@@ -67,9 +67,9 @@ impl Tally {
             let before = self.story.bits.get(index).copied();
             let (was, had) = before.unwrap_or((false, 0.0));
             let what = match (was, set) {
-                (false, true) => "on",
-                (true, false) => "off",
-                (false, false) if *seen > had => "on for a moment",
+                (false, true) => msg("on"),
+                (true, false) => msg("off"),
+                (false, false) if *seen > had => msg("on for a moment"),
                 _ => "",
             };
             if !what.is_empty() {

@@ -10,7 +10,12 @@ use crate::{
     ports::Obstacle,
     theme::ThemeSwitch,
 };
-use encoderscope::{format::Format, language::t, profile::Profile};
+use encoderscope::{
+    format::Format,
+    language::{number, t},
+    profile::Profile,
+    text,
+};
 use encoderscope_web::{
     link::{Fragment, query},
     message::{self, PortId, Snapshot, ToEngine, Wish},
@@ -285,7 +290,7 @@ impl App {
             Some(Ok(profile)) => self.change_profile(profile),
             Some(Err(error)) => self
                 .link_fault
-                .set(Some(format!("The link is not right: {error}."))),
+                .set(Some(text!("The link is not right: {}.", error))),
             None => {}
         }
     }
@@ -316,8 +321,8 @@ impl App {
         self.reads_link.set(true);
         leptos::task::spawn_local(async move {
             if parts::profile_of(self, link).await.is_err() {
-                self.link_fault
-                    .set(Some("The link cannot be read without the network.".into()));
+                let why = t("The link cannot be read without the network.");
+                self.link_fault.set(Some(why.into()));
             }
             self.reads_link.set(false);
         });
@@ -488,12 +493,12 @@ fn location_hash() -> String {
 }
 
 pub(crate) fn summary(profile: &Profile) -> impl IntoView + use<> {
-    let mut text = format!("{} bit", profile.angle_bits);
+    let mut text = text!("{} bit", profile.angle_bits);
     if profile.turns_bits > 0 {
-        text += &format!(" + {} turns", profile.turns_bits);
+        text += &text!(" + {} turns", profile.turns_bits);
     }
     if profile.is_serial() {
-        text += &format!(" · {} Mbaud", f64::from(profile.baud) / 1e6);
+        text += &text!(" · {} Mbaud", number(f64::from(profile.baud) / 1e6));
     }
-    view! { <b>{profile.title()}</b> " " {text} }
+    view! { <b>{t(profile.title())}</b> " " {text} }
 }

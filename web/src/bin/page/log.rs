@@ -12,6 +12,7 @@ use crate::{
     app::{App, Source},
     parts::{self, later},
 };
+use encoderscope::language::{msg, number, t};
 use encoderscope_web::message::{ENTRIES, Entry, LogFilter, ToEngine};
 use leptos::prelude::*;
 
@@ -71,16 +72,16 @@ pub(crate) fn Frames() -> impl IntoView {
     let sends = move || reads() && app.source.get() != Source::Replay;
     view! {
         <section class="panel frames">
-            <h2>"Frames"</h2>
+            <h2>{t("Frames")}</h2>
             {move || reads().then(|| later(move || parts::log_controls(view), || ()))}
             <div class="rows-of">
                 <table>
                     <thead>
                         <tr>
-                            <th>"time"</th>
-                            <th><span class="unseen">"direction"</span></th>
-                            <th>"bytes"</th>
-                            <th>"check"</th>
+                            <th>{t("time")}</th>
+                            <th><span class="unseen">{t("direction")}</span></th>
+                            <th>{t("bytes")}</th>
+                            <th>{t("check")}</th>
                         </tr>
                     </thead>
                     <tbody>
@@ -103,7 +104,12 @@ fn Row(
     choose: impl Fn(usize) + Copy + Send + Sync + 'static,
 ) -> impl IntoView {
     let shape = Memo::new(move |_| log.with(|log| log.get(index).map(Shape::of)));
-    let time = move || log.with(|log| log.get(index).map(|entry| format!("{:.4}", entry.time)));
+    let time = move || {
+        log.with(|log| {
+            log.get(index)
+                .map(|entry| number(format_args!("{:.4}", entry.time)).to_string())
+        })
+    };
     let byte = move |place: usize| {
         log.with(|log| {
             let (byte, _) = log.get(index)?.bytes.get(place)?;
@@ -128,9 +134,9 @@ fn Row(
             None => ("verdict", shape.text),
         };
         let (direction, arrow) = if shape.sent {
-            ("sent", "→")
+            (msg("sent"), "→")
         } else {
-            ("received", "←")
+            (msg("received"), "←")
         };
         Some(view! {
             <tr
@@ -140,8 +146,8 @@ fn Row(
                 data-ok=shape.ok.map(|ok| ok.to_string())
                 on:click=move |_| choose(index)
             >
-                <td class="time"><button class="quiet" title="Explain these bytes">{time}</button></td>
-                <td title=direction>{arrow}</td>
+                <td class="time"><button class="quiet" title=t("Explain these bytes")>{time}</button></td>
+                <td title=t(direction)>{arrow}</td>
                 <td class="bytes">{bytes.collect_view()}</td>
                 <td class=verdict.0>{verdict.1}</td>
             </tr>

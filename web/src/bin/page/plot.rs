@@ -5,7 +5,11 @@ mod chart;
 pub(crate) use chart::{Canvas, Chart};
 
 use crate::app::App;
-use chart::{ChartView, Height, text, value_at};
+use chart::{ChartView, Height, value_at, value_text};
+use encoderscope::{
+    language::{msg, number, t},
+    text,
+};
 use encoderscope_web::{
     message::{Shown, Wish},
     plot::{Plot, PlotRequest, Quantity, Rest, Stretch},
@@ -61,13 +65,13 @@ impl Span {
         Self::All,
     ];
 
-    const fn title(self) -> &'static str {
+    fn title(self) -> &'static str {
         match self {
-            Self::Seconds20 => "20 s",
-            Self::Minutes2 => "2 min",
-            Self::Minutes10 => "10 min",
-            Self::Hour => "1 h",
-            Self::All => "All",
+            Self::Seconds20 => t("20 s"),
+            Self::Minutes2 => t("2 min"),
+            Self::Minutes10 => t("10 min"),
+            Self::Hour => t("1 h"),
+            Self::All => t("All"),
         }
     }
 
@@ -195,21 +199,25 @@ impl View {
                             value_at(trace, mark)?,
                         );
                         Some((
-                            trace.quantity.name(),
-                            format!("Δ {}", text(trace.quantity, apart)),
+                            t(trace.quantity.name()),
+                            format!("Δ {}", value_text(trace.quantity, apart)),
                         ))
                     });
-                    [("from the mark", format!("Δ {time}"))]
+                    [(t("from the mark"), format!("Δ {time}"))]
                         .into_iter()
                         .chain(apart)
                         .collect()
                 }
                 _ => {
-                    let label = if cursor.is_some() { "cursor" } else { "mark" };
+                    let label = if cursor.is_some() {
+                        t("cursor")
+                    } else {
+                        t("mark")
+                    };
                     let values = traces.filter_map(|trace| {
                         Some((
-                            trace.quantity.name(),
-                            text(trace.quantity, value_at(trace, at)?),
+                            t(trace.quantity.name()),
+                            value_text(trace.quantity, value_at(trace, at)?),
                         ))
                     });
                     [(label, seconds_text(at))]
@@ -246,7 +254,7 @@ fn difference(quantity: Quantity, value: f64, other: f64) -> f64 {
 }
 
 fn seconds_text(seconds: f64) -> String {
-    format!("{seconds:.4} s").replace('-', "−")
+    text!("{} s", number(format_args!("{seconds:.4}"))).replace('-', "−")
 }
 
 /// The quantities that were shown last.
@@ -332,13 +340,14 @@ pub(crate) fn PlotPanel() -> impl IntoView {
     };
     let paused = move || view.held.get().is_some();
     let heading = move || match (view.held.get(), view.span.get()) {
-        (Some(_), _) => "Paused".into(),
-        (None, Span::All) => "Since the link was opened".into(),
-        (None, span) => format!("Last {}", span.title()),
+        (Some(_), _) => t("Paused").into(),
+        (None, Span::All) => t("Since the link was opened").into(),
+        (None, span) => text!("Last {}", span.title()),
     };
     let stretch = move || {
         let (from, to) = view.held.get()?;
-        Some(format!("{:.2} … {to:.2} s", from.max(0.0)))
+        let stretch = format!("{:.2} … {to:.2}", from.max(0.0));
+        Some(text!("{} s", number(stretch)))
     };
     let points = move || {
         plot.with(|plot| {
@@ -359,15 +368,15 @@ pub(crate) fn PlotPanel() -> impl IntoView {
         >
             <h2>{heading} <span>{stretch}</span></h2>
             <Controls view=view />
-            {move || drawn.get().is_empty().then(|| view! { <p class="hint">"Choose what is drawn."</p> })}
+            {move || drawn.get().is_empty().then(|| view! { <p class="hint">{t("Choose what is drawn.")}</p> })}
             {Quantity::ALL.map(chart).into_iter().collect_view()}
             <div class="below">
                 <Readout view=view />
-                <div class="group" role="group" aria-label="Time that is shown">
-                    <button on:click=move |_| view.look(1.0, -0.5) aria-label="Earlier">"◂"</button>
-                    <button on:click=move |_| view.look(1.0, 0.5) aria-label="Later">"▸"</button>
-                    <button data-testid="plot-zoom-in" on:click=move |_| view.look(0.5, 0.0) aria-label="Zoom in">"+"</button>
-                    <button on:click=move |_| view.look(2.0, 0.0) aria-label="Zoom out">"−"</button>
+                <div class="group" role="group" aria-label=t("Time that is shown")>
+                    <button on:click=move |_| view.look(1.0, -0.5) aria-label=t("Earlier")>"◂"</button>
+                    <button on:click=move |_| view.look(1.0, 0.5) aria-label=t("Later")>"▸"</button>
+                    <button data-testid="plot-zoom-in" on:click=move |_| view.look(0.5, 0.0) aria-label=t("Zoom in")>"+"</button>
+                    <button on:click=move |_| view.look(2.0, 0.0) aria-label=t("Zoom out")>"−"</button>
                 </div>
             </div>
         </section>
@@ -403,32 +412,32 @@ fn Controls(view: View) -> impl IntoView {
                 hidden=move || !offered()
                 on:click=move |_| view.toggle(quantity)
             >
-                {quantity.name()}
+                {t(quantity.name())}
             </button>
         }
     };
     let fits = move || view.height.get() == Height::Fit;
     view! {
         <div class="controls">
-            <div class="group" role="group" aria-label="How it goes on">
+            <div class="group" role="group" aria-label=t("How it goes on")>
                 <button
                     class="pause"
                     data-testid="plot-pause"
                     on:click=move |_| if view.held.get_untracked().is_some() { view.go_on() } else { view.pause() }
                 >
-                    {move || if paused() { "Live" } else { "Pause" }}
+                    {move || if paused() { t("Live") } else { t("Pause") }}
                 </button>
                 {Span::ALL.map(span).into_iter().collect_view()}
             </div>
-            <div class="group" role="group" aria-label="What is drawn">
+            <div class="group" role="group" aria-label=t("What is drawn")>
                 {Quantity::ALL.map(quantity).into_iter().collect_view()}
                 <button
                     data-testid="plot-fit"
                     aria-pressed=move || fits().to_string()
-                    title="Draw the angle as large as it fits, not on a whole turn"
+                    title=t("Draw the angle as large as it fits, not on a whole turn")
                     on:click=move |_| view.height.set(if fits() { Height::Whole } else { Height::Fit })
                 >
-                    "fit angle"
+                    {t("fit angle")}
                 </button>
             </div>
         </div>
@@ -452,7 +461,7 @@ fn Readout(view: View) -> impl IntoView {
                 let rows = view.readout();
                 match rows.is_empty() {
                     true => view! {
-                        <dt class="hint">"Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc."</dt>
+                        <dt class="hint">{t("Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc.")}</dt>
                     }
                         .into_any(),
                     false => rows

@@ -16,6 +16,10 @@ use crate::{
     app::{App, Source},
     handout::save,
 };
+use encoderscope::{
+    language::{number, t},
+    text,
+};
 use encoderscope_web::{
     link::{profile, query},
     message::{Answer, Digest, Kept, RecorderState, Story, Wish},
@@ -141,10 +145,28 @@ impl Recordings {
 /// Bytes in few digits.
 fn size_text(bytes: f64) -> String {
     match bytes {
-        1e9.. => format!("{:.2} GB", bytes / 1e9),
-        1e6.. => format!("{:.1} MB", bytes / 1e6),
-        1e3.. => format!("{:.0} kB", bytes / 1e3),
-        _ => format!("{bytes} bytes"),
+        1e9.. => text!("{} GB", number(format_args!("{:.2}", bytes / 1e9))),
+        1e6.. => text!("{} MB", number(format_args!("{:.1}", bytes / 1e6))),
+        1e3.. => text!("{} kB", format_args!("{:.0}", bytes / 1e3)),
+        _ => text!("{} bytes", bytes),
+    }
+}
+
+/// What is written in English into a file, for people: as a whole, or part by part.
+fn retold(english: &str) -> String {
+    let whole = t(english);
+    if whole != english {
+        return whole.to_owned();
+    }
+    for mark in [": ", "; "] {
+        if let Some((before, behind)) = english.split_once(mark) {
+            return [&retold(before), mark, &retold(behind)].concat();
+        }
+    }
+    match (english.strip_prefix("link "), english.strip_suffix('.')) {
+        (Some(state), _) => text!("link {}", t(state)),
+        (None, Some(sentence)) => format!("{}.", t(sentence)),
+        (None, None) => english.to_owned(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Light and dark.
 
+use encoderscope::language::t;
 use leptos::prelude::*;
 
 #[component]
@@ -31,7 +32,7 @@ pub(crate) fn ThemeSwitch() -> impl IntoView {
         }
     };
     view! {
-        <button class="theme" on:click=switch aria-label="Light or dark" title="Light or dark">
+        <button class="theme" on:click=switch aria-label=t("Light or dark") title=t("Light or dark")>
             "◐"
         </button>
     }

@@ -7,6 +7,7 @@ use super::{
     size_text,
 };
 use crate::app::App;
+use encoderscope::language::t;
 use encoderscope_web::{
     browser::time_text,
     message::{Kept, Wish},
@@ -28,25 +29,27 @@ pub(crate) fn RecordingsPanel() -> impl IntoView {
     view! {
         <Opened recordings=recordings />
         <section class="panel recordings">
-            <h2>"Recordings"</h2>
+            <h2>{t("Recordings")}</h2>
             {move || recordings.fault.get().map(|why| view! { <p class="fault" role="alert" data-testid="recordings-fault">{why}</p> })}
             {move || match recordings.list.with(Vec::is_empty) {
                 true => view! {
                     <p class="hint">
-                        "A recording keeps every byte with its time and direction. It is written to this browser's "
-                        "storage as it comes, so that a crash takes half a second at most; Wireshark opens it, and "
-                        "so does this page."
+                        {t(
+                            "A recording keeps every byte with its time and direction. It is written to this browser's \
+                             storage as it comes, so that a crash takes half a second at most; Wireshark opens it, and \
+                             so does this page.",
+                        )}
                     </p>
                 }.into_any(),
                 false => view! {
                     <table data-testid="recordings">
                         <thead>
                             <tr>
-                                <th><span class="unseen">"compare"</span></th>
-                                <th>"name"</th>
-                                <th>"written"</th>
-                                <th>"size"</th>
-                                <th><span class="unseen">"what to do"</span></th>
+                                <th><span class="unseen">{t("compare")}</span></th>
+                                <th>{t("name")}</th>
+                                <th>{t("written")}</th>
+                                <th>{t("size")}</th>
+                                <th><span class="unseen">{t("what to do")}</span></th>
                             </tr>
                         </thead>
                         <tbody>
@@ -63,10 +66,10 @@ pub(crate) fn RecordingsPanel() -> impl IntoView {
                     <button
                         data-testid="compare"
                         disabled=move || chosen.with(Vec::len) != 2
-                        title="Choose two recordings"
+                        title=t("Choose two recordings")
                         on:click=compare
                     >
-                        "Compare two"
+                        {t("Compare two")}
                     </button>
                 })}
                 <Handing recordings=recordings />
@@ -93,8 +96,8 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
         });
     };
     let note = match (kept.runs, kept.whole) {
-        (true, _) => Some("runs"),
-        (false, false) => Some("cut off"),
+        (true, _) => Some(t("runs")),
+        (false, false) => Some(t("cut off")),
         (false, true) => None,
     };
     let asked = RwSignal::new(false);
@@ -103,7 +106,7 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
             <td>
                 <input
                     type="checkbox"
-                    aria-label="Compare"
+                    aria-label=t("Compare")
                     prop:checked=move || chosen.with(|chosen| chosen.contains(&name()))
                     on:change:target=move |event| choose(event.target().checked())
                 />
@@ -112,17 +115,17 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
             <td class="number">{time_text(kept.written)}</td>
             <td class="number">{size_text(kept.size)}</td>
             <td class="doors">
-                <button data-testid="replay" disabled=kept.runs on:click=move |_| recordings.replay(name())>"Replay"</button>
-                <button data-testid="save" on:click=move |_| recordings.send(&Wish::Fetch(name()))>"Save"</button>
+                <button data-testid="replay" disabled=kept.runs on:click=move |_| recordings.replay(name())>{t("Replay")}</button>
+                <button data-testid="save" on:click=move |_| recordings.send(&Wish::Fetch(name()))>{t("Save")}</button>
                 {move || match asked.get() {
                     false => view! {
-                        <button class="quiet" data-testid="delete" disabled=kept.runs on:click=move |_| asked.set(true)>"Delete…"</button>
+                        <button class="quiet" data-testid="delete" disabled=kept.runs on:click=move |_| asked.set(true)>{t("Delete…")}</button>
                     }.into_any(),
                     true => view! {
                         <button data-testid="delete-confirm" on:click=move |_| recordings.send(&Wish::Delete(name()))>
-                            "Delete for good"
+                            {t("Delete for good")}
                         </button>
-                        <button class="quiet" on:click=move |_| asked.set(false)>"Keep"</button>
+                        <button class="quiet" on:click=move |_| asked.set(false)>{t("Keep")}</button>
                     }.into_any(),
                 }}
             </td>
@@ -136,7 +139,7 @@ fn OpenFile(recordings: Recordings) -> impl IntoView {
     let chooser = NodeRef::<html::Input>::new();
     view! {
         <label class="button">
-            "Open a recording or support file"
+            {t("Open a recording or support file")}
             <input
                 type="file"
                 class="unseen"

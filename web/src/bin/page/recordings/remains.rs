@@ -2,6 +2,7 @@
 
 use super::{Recordings, size_text};
 use crate::app::App;
+use encoderscope::{language::t, text};
 use encoderscope_web::{
     browser::time_text,
     message::{Kept, Wish},
@@ -28,9 +29,9 @@ fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
     let name = StoredValue::new(kept.name.clone());
     view! {
         <section class="panel remains" role="status" data-testid="remains" data-name=kept.name.clone()>
-            <h2>"A recording was cut off"</h2>
+            <h2>{t("A recording was cut off")}</h2>
             <p>
-                {format!(
+                {text!(
                     "{}, {}, last written {}. It was not ended: the page was closed, or the browser or the machine stopped. Up to half a second before that, everything is there.",
                     kept.name,
                     size_text(kept.size),
@@ -43,17 +44,17 @@ fn Offer(recordings: Recordings, kept: Kept) -> impl IntoView {
                     data-testid="remains-replay"
                     on:click=move |_| recordings.replay(name.get_value())
                 >
-                    "Replay it"
+                    {t("Replay it")}
                 </button>
                 <button
                     data-testid="remains-save"
                     on:click=move |_| recordings.send(&Wish::Fetch(name.get_value()))
                 >
-                    "Save it"
+                    {t("Save it")}
                 </button>
-                <button data-testid="remains-keep" on:click=move |_| recordings.send(&Wish::Settle(name.get_value()))>"Keep it"</button>
+                <button data-testid="remains-keep" on:click=move |_| recordings.send(&Wish::Settle(name.get_value()))>{t("Keep it")}</button>
                 <button class="quiet" on:click=move |_| recordings.send(&Wish::Delete(name.get_value()))>
-                    "Delete it"
+                    {t("Delete it")}
                 </button>
             </div>
         </section>
