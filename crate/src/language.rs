@@ -79,7 +79,7 @@ fn spoken() -> Option<&'static Catalogue> {
 
 /// A text in the language that is spoken; English where the catalogue has none.
 #[must_use]
-pub fn t(english: &'static str) -> &'static str {
+pub fn t(english: &str) -> &str {
     let found = spoken().and_then(|catalogue| catalogue.get(english));
     found.unwrap_or(english)
 }
