@@ -362,20 +362,6 @@ fn title(show: Show) -> &'static str {
     }
 }
 
-/// What a quantity is called on the page.
-fn quantity_title(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Start => t("start"),
-        Quantity::Time => t("time"),
-        Quantity::Turns => t("turns"),
-        Quantity::Angle => t("angle"),
-        Quantity::Degrees => t("degrees"),
-        Quantity::Status => t("status"),
-        Quantity::Temperature => t("temperature"),
-        Quantity::Speed => t("speed"),
-    }
-}
-
 /// Which rows are shown, and where to go.
 #[component]
 fn FilterBar() -> impl IntoView {
@@ -492,7 +478,7 @@ fn FilterBar() -> impl IntoView {
                         }
                     >
                         {Quantity::ALL.into_iter().map(|known| view! {
-                            <option value=known.name() selected=known == chosen>{quantity_title(known)}</option>
+                            <option value=known.name() selected=known == chosen>{t(known.name())}</option>
                         }).collect_view()}
                     </select>
                 </label>
