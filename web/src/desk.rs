@@ -25,6 +25,7 @@ use encoderscope::{
     detect::Change,
     dump::{Dump, Reader},
     export::{Language, source},
+    language::t,
     profile::Profile,
     sheet::{Filter, Order, Quantity, Sheet, Show},
 };
@@ -100,6 +101,8 @@ struct State {
     captured: Captured,
     judge: Judge,
     shown: (Filter, Option<Order>),
+    /// A row that is to be explained as soon as it is there.
+    awaited: Option<usize>,
     /// How often rows have been chosen and sorted.
     arranged: u32,
     /// When the page was last told how far it is, in milliseconds.
@@ -141,6 +144,7 @@ impl Desk {
                 captured: Captured::default(),
                 judge: Judge::default(),
                 shown: (Filter::default(), None),
+                awaited: None,
                 arranged: 0,
                 told: 0.0,
             })),
@@ -150,7 +154,10 @@ impl Desk {
     /// Does what the page asks for.
     pub fn handle(&self, message: ToDesk, file: Option<JsValue>) {
         match message {
-            ToDesk::Speak => language::speak(&file.unwrap_or_default()),
+            ToDesk::Speak => {
+                language::speak(&file.unwrap_or_default());
+                self.say_again();
+            }
             ToDesk::Text { text, profile } => {
                 let bytes: Rc<[u8]> = text.into_bytes().into();
                 self.open(Source::Memory(bytes), String::new(), &profile);
@@ -159,7 +166,7 @@ impl Desk {
                 let blob = file.and_then(|file| file.dyn_into::<Blob>().ok());
                 match blob {
                     Some(blob) => self.open(Source::File(blob), name, &profile),
-                    None => self.post(FromDesk::Refused("There is no file to read.".into())),
+                    None => self.post(FromDesk::Refused(t("There is no file to read.").into())),
                 }
             }
             ToDesk::Link {
@@ -227,7 +234,11 @@ impl Desk {
                 }
                 Ok(Load::Bytes(bytes)) => {
                     let bytes: Rc<[u8]> = bytes.into();
-                    desk.open(Source::Memory(bytes), "bytes from a link".into(), &profile);
+                    desk.open(
+                        Source::Memory(bytes),
+                        t("bytes from a link").into(),
+                        &profile,
+                    );
                     desk.state.borrow_mut().judge.change = Change::parse(&change);
                 }
                 Err(why) => desk.post(FromDesk::Refused(why)),
@@ -314,10 +325,12 @@ impl Desk {
     }
 
     fn explain(&self, index: usize) {
-        if let Some(mut explained) = self.explained(index) {
-            explained
-                .says
-                .extend(self.state.borrow().captured.said_of(index));
+        let explained = self.explained(index);
+        let mut state = self.state.borrow_mut();
+        state.awaited = (explained.is_none() && !state.done).then_some(index);
+        if let Some(mut explained) = explained {
+            explained.says.extend(state.captured.said_of(index));
+            drop(state);
             self.post(FromDesk::Explained(Box::new(explained)));
         }
     }
@@ -395,7 +408,7 @@ impl Desk {
             let state = self.state.borrow();
             (state.source.clone(), state.origin)
         };
-        let source = source.ok_or("There is nothing to share yet.")?;
+        let source = source.ok_or_else(|| t("There is nothing to share yet."))?;
         let bytes = source.read(origin as f64, share::MOST + 1).await?;
         Ok(match String::from_utf8(bytes) {
             Ok(text) => Load::Text(text),

@@ -5,7 +5,7 @@ use crate::{
     link,
     message::{Count, Marked, Overview},
 };
-use encoderscope::{dump::Marks, sheet::Tally};
+use encoderscope::{dump::Marks, language::t, sheet::Tally};
 
 /// Places of the text that are no data.
 pub(super) fn marked(marks: &Marks) -> Vec<Marked> {
@@ -19,7 +19,7 @@ pub(super) fn marked(marks: &Marks) -> Vec<Marked> {
 
 fn counts(tallies: &[Tally]) -> Vec<Count> {
     let count = |tally: &Tally| Count {
-        name: tally.name.clone(),
+        name: t(&tally.name).to_owned(),
         count: tally.count as f64,
         first: tally.first,
     };

@@ -1,7 +1,7 @@
 //! Where input comes from: text, bytes, or a file that is read in pieces.
 
 use crate::browser::error_text;
-use encoderscope::detect::Change;
+use encoderscope::{detect::Change, language::number, text};
 use js_sys::Uint8Array;
 use std::rc::Rc;
 use wasm_bindgen_futures::JsFuture;
@@ -35,10 +35,10 @@ impl Source {
     /// Why it is not opened.
     pub(super) fn refusal(&self) -> Option<String> {
         (self.len() > LARGEST).then(|| {
-            format!(
-                "The file has {:.1} GB; more than {:.0} GB do not fit into a browser's memory. Cut it in pieces.",
-                self.len() / 1e9,
-                LARGEST / 1e9
+            text!(
+                "The file has {} GB; more than {} GB do not fit into a browser's memory. Cut it in pieces.",
+                number(format_args!("{:.1}", self.len() / 1e9)),
+                format_args!("{:.0}", LARGEST / 1e9)
             )
         })
     }
@@ -62,7 +62,7 @@ impl Source {
             Self::File(blob) => {
                 let said = |error| {
                     let (_, message) = error_text(&error);
-                    format!("The file cannot be read: {message}")
+                    text!("The file cannot be read: {}", message)
                 };
                 let slice = blob
                     .slice_with_f64_and_f64(at, at + count as f64)

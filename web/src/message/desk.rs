@@ -328,6 +328,8 @@ pub struct Explained {
 pub struct FieldView {
     /// Its name.
     pub name: String,
+    /// Its name for people.
+    pub title: String,
     /// The class that its colour comes from.
     pub class: String,
     /// The runs of bits it consists of: first bit and number.

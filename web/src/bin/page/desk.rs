@@ -5,7 +5,7 @@ mod link;
 pub(crate) use link::end_text;
 
 use crate::{Workers, app::App, handout::save, language::Spoken};
-use encoderscope::profile::Profile;
+use encoderscope::{explain::grouped, language::t, profile::Profile, text};
 use encoderscope_web::{
     browser::Peer,
     link::{self as links, query},
@@ -37,6 +37,28 @@ pub(crate) enum Choice {
     Nobody,
 }
 
+/// What the input is called where it is not the text of the box.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Named {
+    /// A link carried it.
+    Linked,
+    /// So many bytes were pasted that they are better not shown.
+    Pasted(usize),
+    /// A file.
+    File(String),
+}
+
+impl Named {
+    /// The name for people.
+    pub(crate) fn title(&self) -> String {
+        match self {
+            Self::Linked => t("frames from a link").to_owned(),
+            Self::Pasted(bytes) => text!("pasted text, {} {0|byte|bytes}", grouped(*bytes as u64)),
+            Self::File(name) => name.clone(),
+        }
+    }
+}
+
 /// A message, and the file beside it.
 type Parcel = (ToDesk, Option<Blob>);
 
@@ -53,7 +75,7 @@ pub(crate) struct Desk {
     /// The text that the worker has.
     sent: StoredValue<String>,
     /// What the input is called where it is not the text of the box.
-    pub(crate) file: RwSignal<Option<String>>,
+    pub(crate) file: RwSignal<Option<Named>>,
     pub(crate) overview: RwSignal<Overview>,
     /// Rows, and the place of the first one.
     pub(crate) rows: RwSignal<(usize, Vec<RowView>)>,
@@ -164,10 +186,15 @@ impl Desk {
         Effect::new(move |before: Option<()>| {
             self.spoken.language.track();
             if before.is_some() {
+                // What was found is being said anew.
+                self.judging.set(!self.is_empty());
+                self.candidates.set(Vec::new());
+                self.near.set(Vec::new());
+                self.report.set(Vec::new());
+                self.payload.update(|payload| {
+                    payload.take_if(|payload| payload.is_err());
+                });
                 self.tell();
-                if let Some(profile) = self.profile.get_value() {
-                    self.send(ToDesk::Profile(query(&profile)));
-                }
             }
         });
     }
@@ -183,10 +210,9 @@ impl Desk {
             match made {
                 Some(worker) => self.listen(worker),
                 None => {
-                    return self.refusal.set(Some(
-                        "This browser starts no workers, so that nothing can be decoded here."
-                            .into(),
-                    ));
+                    let why =
+                        t("This browser starts no workers, so that nothing can be decoded here.");
+                    return self.refusal.set(Some(why.into()));
                 }
             }
         }
@@ -226,9 +252,9 @@ impl Desk {
 
     /// The worker is gone; the next input gets another one.
     fn break_down(self) {
-        self.dismiss(
+        self.dismiss(t(
             "Decoding broke down: the input may need more memory than this browser gives. Cut it in pieces, or reload the page.",
-        );
+        ));
     }
 
     /// Lets the worker go, whatever it is at.
@@ -261,7 +287,9 @@ impl Desk {
                 .try_with_untracked(|overview| !overview.done)
                 .unwrap_or(false);
             if busy && same && silent {
-                self.dismiss("Stopped. Decoding did not answer: nothing of the input is kept.");
+                self.dismiss(t(
+                    "Stopped. Decoding did not answer: nothing of the input is kept.",
+                ));
             }
         };
         set_timeout(dismiss, PATIENCE);
@@ -403,13 +431,20 @@ impl Desk {
     }
 
     /// A file was chosen, or so much was pasted that it is better not shown.
-    pub(crate) fn open(self, name: String, file: Blob, profile: &Profile) {
+    pub(crate) fn open(self, name: Named, file: Blob, profile: &Profile) {
         self.text.set(String::new());
         self.sent.set_value(String::new());
-        self.file.set(Some(name.clone()));
+        let title = name.title();
+        self.file.set(Some(name));
         self.forget();
         let profile = query(profile);
-        self.send_with(ToDesk::File { name, profile }, Some(file));
+        self.send_with(
+            ToDesk::File {
+                name: title,
+                profile,
+            },
+            Some(file),
+        );
     }
 
     /// What was said of other input is not true any more.

@@ -5,9 +5,11 @@
 
 use crate::{app::App, desk::end_text};
 use encoderscope::{
-    explain::grouped_signed,
+    explain::{grouped, grouped_signed},
     format::STATUS,
+    language::{number, t},
     sheet::{Quantity, Show},
+    text,
 };
 use encoderscope_web::message::{RowState, RowView, Selection, ToDesk};
 use leptos::{html, prelude::*};
@@ -199,7 +201,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
                 style:height=move || format!("{}px", (scroll.total.get().clamp(1, SIGHT) + 1) as f64 * ROW + 4.0)
                 tabindex="0"
                 role="region"
-                aria-label="Frames"
+                aria-label=t("Frames")
                 node_ref=scroll.frame
                 data-testid="rows"
                 data-value=move || scroll.total.get().to_string()
@@ -211,13 +213,13 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
                     <table aria-rowcount=move || scroll.total.get().to_string()>
                         <thead>
                             <tr>
-                                <Heading by=Quantity::Start title="at" />
-                                {move || timed.get().then(|| view! { <Heading by=Quantity::Time title="time" /> })}
-                                <Heading by=Quantity::Turns title="turns" />
-                                <Heading by=Quantity::Angle title="angle" />
-                                <Heading by=Quantity::Status title="status" />
-                                <th class="check">"check"</th>
-                                <th class="hex">"bytes"</th>
+                                <Heading by=Quantity::Start title=t("at") />
+                                {move || timed.get().then(|| view! { <Heading by=Quantity::Time title=t("time") /> })}
+                                <Heading by=Quantity::Turns title=t("turns") />
+                                <Heading by=Quantity::Angle title=t("angle") />
+                                <Heading by=Quantity::Status title=t("status") />
+                                <th class="check">{t("check")}</th>
+                                <th class="hex">{t("bytes")}</th>
                             </tr>
                         </thead>
                         <tbody>{visible}</tbody>
@@ -302,7 +304,7 @@ fn Line(row: RowView, place: usize, shown: Memo<Option<usize>>) -> impl IntoView
     // The numbers of a frame that fails are in its fields; here they would pass for good ones.
     let shown_if_good = |text: Option<String>| text.filter(|_| good).unwrap_or_else(|| "–".into());
     let turns = shown_if_good(row.turns.map(|turns| grouped_signed(turns as i64)));
-    let angle = shown_if_good(row.degrees.map(|degrees| degrees + "°"));
+    let angle = shown_if_good(row.degrees.map(|degrees| number(degrees + "°").to_string()));
     view! {
         <tr
             data-testid="dump-row"
@@ -342,20 +344,21 @@ fn seconds_of(text: &str) -> Option<f64> {
 fn time_text(seconds: f64) -> String {
     const HOUR: f64 = 3600.0;
     if seconds < HOUR {
-        return format!("{seconds:.6}");
+        return number(format_args!("{seconds:.6}")).to_string();
     }
     let whole = seconds.floor() as u64;
     let (hours, minutes) = (whole / 3600, whole / 60 % 60);
-    format!("{hours:02}:{minutes:02}:{:06.3}", seconds % 60.0)
+    let seconds = seconds % 60.0;
+    number(format_args!("{hours:02}:{minutes:02}:{seconds:06.3}")).to_string()
 }
 
 /// What a show is called on the page.
-const fn title(show: Show) -> &'static str {
+fn title(show: Show) -> &'static str {
     match show {
-        Show::All => "all",
-        Show::Frames => "frames",
-        Show::Faults => "faults",
-        Show::Conditions => "error or warning",
+        Show::All => t("all"),
+        Show::Frames => t("frames"),
+        Show::Faults => t("faults"),
+        Show::Conditions => t("error or warning"),
     }
 }
 
@@ -436,7 +439,7 @@ fn FilterBar() -> impl IntoView {
                     prop:checked=is_set
                     on:change=move |_| update(&|selection| selection.status ^= mask)
                 />
-                {bit.name}
+                {t(bit.name)}
             </label>
         }
     });
@@ -444,29 +447,29 @@ fn FilterBar() -> impl IntoView {
     let shown = move || {
         let overview = desk.overview.get();
         (overview.shown != overview.rows).then(|| {
-            format!(
+            text!(
                 "{} of {} rows",
-                encoderscope::explain::grouped(overview.shown as u64),
-                encoderscope::explain::grouped(overview.rows as u64)
+                grouped(overview.shown as u64),
+                grouped(overview.rows as u64)
             )
         })
     };
     view! {
         <div class="filters">
-            <div class="bar-of" role="group" aria-label="Which rows">{shows.into_iter().collect_view()}</div>
-            <button class="quiet" data-testid="next-fault" on:click=next>"next fault ↓"</button>
+            <div class="bar-of" role="group" aria-label=t("Which rows")>{shows.into_iter().collect_view()}</div>
+            <button class="quiet" data-testid="next-fault" on:click=next>{t("next fault ↓")}</button>
             <label class="go">
-                {move || if desk.overview.get().timed { "Go to time" } else { "Go to row" }}
+                {move || if desk.overview.get().timed { t("Go to time") } else { t("Go to row") }}
                 <input inputmode="decimal" data-testid="go" on:change:target=move |event| go(event.target().value()) />
             </label>
             <span class="hint" data-testid="shown">{shown}</span>
-            {move || desk.lost.get().then(|| view! { <span class="hint" role="status" data-testid="no-row">"There is no such row."</span> })}
+            {move || desk.lost.get().then(|| view! { <span class="hint" role="status" data-testid="no-row">{t("There is no such row.")}</span> })}
         </div>
         <details class="filters-more" open=is_filtered>
-            <summary>"Filter by value or status"</summary>
+            <summary>{t("Filter by value or status")}</summary>
             <div class="filters">
                 <label>
-                    "Quantity"
+                    {t("Quantity")}
                     <select
                         data-testid="range-of"
                         on:change:target=move |event| {
@@ -475,12 +478,12 @@ fn FilterBar() -> impl IntoView {
                         }
                     >
                         {Quantity::ALL.into_iter().map(|known| view! {
-                            <option value=known.name() selected=known == chosen>{known.name()}</option>
+                            <option value=known.name() selected=known == chosen>{t(known.name())}</option>
                         }).collect_view()}
                     </select>
                 </label>
-                <label>"from" <input inputmode="decimal" data-testid="range-low" value=end_text(from) node_ref=low on:change=move |_| apply() /></label>
-                <label>"to" <input inputmode="decimal" data-testid="range-high" value=end_text(to) node_ref=high on:change=move |_| apply() /></label>
+                <label>{t("from")} <input inputmode="decimal" data-testid="range-low" value=end_text(from) node_ref=low on:change=move |_| apply() /></label>
+                <label>{t("to")} <input inputmode="decimal" data-testid="range-high" value=end_text(to) node_ref=high on:change=move |_| apply() /></label>
                 <div class="status-bits">{bits}</div>
             </div>
         </details>

@@ -7,9 +7,11 @@ use encoderscope::{
     dump::Direction,
     format::Format,
     framing::Why,
+    language::t,
     layout::Class,
     profile::Profile,
     sketch::{Checks, Sketch},
+    text,
 };
 use encoderscope_web::link::{Fragment, encode};
 use leptos::prelude::*;
@@ -37,6 +39,11 @@ pub(super) struct FieldPlan {
 impl FieldPlan {
     /// Its name for people.
     pub(super) fn title(&self) -> String {
+        t(self.name).replace('_', " ")
+    }
+
+    /// The same in English, for what looks for it.
+    pub(super) fn plain(&self) -> String {
         self.name.replace('_', " ")
     }
 }
@@ -205,7 +212,7 @@ impl Paper {
                 self.follow_profile(profile);
                 let title = profile.title();
                 self.fault
-                    .set(Some(format!("This is no frame of {title}: {why}.")));
+                    .set(Some(text!("This is no frame of {}: {}.", title, why)));
             }
         }
     }

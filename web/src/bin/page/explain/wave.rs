@@ -5,7 +5,9 @@ use crate::app::App;
 use encoderscope::{
     diagram::{Fold, Lane, Limit, Master, Slot, Timeline, What},
     format::Link,
+    language::{number, t},
     layout::Class,
+    text,
 };
 use leptos::{html, prelude::*};
 
@@ -74,28 +76,28 @@ pub(super) fn Wave() -> impl IntoView {
     view! {
         <section class="panel">
             <div class="heading">
-                <h2>"On the wire"</h2>
+                <h2>{t("On the wire")}</h2>
                 {move || match clocked.get() {
                     true => view! {
                         <label>
-                            <span class="hint">"Clock, kHz"</span>
+                            <span class="hint">{t("Clock, kHz")}</span>
                             <input
                                 class="entry"
                                 inputmode="decimal"
                                 data-testid="explain-clock"
-                                prop:value=move || (f64::from(hertz.get()) / 1e3).to_string()
+                                prop:value=move || number(f64::from(hertz.get()) / 1e3).to_string()
                                 on:change:target=move |event| enter(event.target().value())
                             />
                         </label>
                     }.into_any(),
                     false => view! {
-                        <span class="hint">{move || format!("{} baud, 8N1", app.profile.get().baud)}</span>
+                        <span class="hint">{move || text!("{} baud, 8N1", app.profile.get().baud)}</span>
                     }.into_any(),
                 }}
             </div>
             <div class="wave-box">
                 {move || timeline.with(|timeline| timeline.as_ref().map(wire_names))}
-                <div class="wave" node_ref=frame tabindex="0" role="region" aria-label="Timing diagram">{picture}</div>
+                <div class="wave" node_ref=frame tabindex="0" role="region" aria-label=t("Timing diagram")>{picture}</div>
             </div>
             <ul class="limits">{limits}</ul>
         </section>
@@ -109,8 +111,8 @@ fn limit(limit: Limit) -> impl IntoView {
     };
     view! {
         <li data-testid="explain-limit" data-value=limit.holds.to_string()>
-            <b class=class>{sign} " " {limit.name} ": " {limit.value}</b>
-            <span class="doc">{format!("{} ({})", limit.text, limit.source)}</span>
+            <b class=class>{sign} " " {t(limit.name)} ": " {limit.value}</b>
+            <span class="doc">{format!("{} ({})", limit.text, t(limit.source))}</span>
         </li>
     }
 }
@@ -144,7 +146,7 @@ fn draw(paper: Paper, timeline: &Timeline) -> impl IntoView + use<> {
             height=height
             viewBox=format!("0 0 {width} {height}")
             role="img"
-            aria-label="Levels of the wires over time"
+            aria-label=t("Levels of the wires over time")
             on:mouseleave=move |_| paper.lit.set(None)
         >
             {slots}
@@ -182,7 +184,7 @@ fn wire_names(timeline: &Timeline) -> impl IntoView + use<> {
     let height = TOP + LANE * timeline.lanes.len() as f64;
     let names = timeline.lanes.iter().enumerate().map(|(index, lane)| {
         let y = TOP + LANE * index as f64 + 10.0 + SWING / 2.0 + 4.0;
-        view! { <text x="0" y=y>{lane.name}</text> }
+        view! { <text x="0" y=y>{t(lane.name)}</text> }
     });
     view! { <svg class="wire-names" width="60" height=height aria-hidden="true">{names.collect_view()}</svg> }
 }
@@ -195,7 +197,7 @@ fn stretch(paper: Paper, slot: &Slot, fold: &Fold) -> AnyView {
     let What::Bit(bit) = slot.what else {
         return view! {
             <rect class="slot other" x=x y=y width=width height=LANE - 8.0>
-                <title>{slot.what.name()}</title>
+                <title>{t(slot.what.name())}</title>
             </rect>
         }
         .into_any();
@@ -245,7 +247,7 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
                 (field.title(), field.class.name(), true)
             }
             What::Start | What::Stop => continue,
-            other => (other.name().to_owned(), "none", false),
+            other => (t(other.name()).to_owned(), "none", false),
         };
         let x = LEFT + fold.x(slot.from);
         let end = x + text.chars().count() as f64 * LETTER + LETTER;
