@@ -83,7 +83,7 @@ impl Sum {
     pub fn name(&self) -> String {
         match self {
             Self::Crc(crc) => match crc.name() {
-                Some(name) => name.into(),
+                Some(name) => t(name).into(),
                 None => text!("CRC-{}", crc.width),
             },
             Self::Added { .. } | Self::Subtracted { .. } => t("sum of bytes").into(),

@@ -147,7 +147,11 @@ impl Resolved {
         match self.coding(field) {
             Some((Coding::Gray, _)) => {
                 let width = field.width as usize;
-                format!("{text} (Gray {:0width$b})", self.wire(field, bits))
+                text!(
+                    "{} (Gray {})",
+                    text,
+                    format_args!("{:0width$b}", self.wire(field, bits))
+                )
             }
             _ => text,
         }

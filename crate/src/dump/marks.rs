@@ -1,6 +1,6 @@
 //! What of a text is not data, and where it stands.
 
-use crate::language::msg;
+use crate::language::{msg, t};
 use alloc::vec::Vec;
 use core::{fmt, ops::Range};
 
@@ -83,7 +83,7 @@ impl Dropped {
 
 impl fmt::Display for Dropped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(t(self.name()))
     }
 }
 

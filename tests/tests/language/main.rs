@@ -31,10 +31,10 @@ fn a_catalogue_translates_texts_numbers_and_forms() {
         (".", ","),
         ("{}° of {}", "{1}: {0}°"),
         ("{} {0|byte|bytes}", "{} {0|байт|байта|байтов}"),
-        ("t485.angle", "Угол."),
+        ("Angle within one turn.", "Угол."),
     ])));
-    let field = language::field("t485", "angle", "Angle.".into());
-    let other = language::field("t485", "turns", "Turns.".into());
+    let field = language::meaning("Angle within one turn.".into());
+    let other = language::in_english(|| language::meaning("Angle within one turn.".into()));
     let said = (t("not in it"), degrees(), field, other);
     let forms = [0, 1, -1, 3, 5, 11, 12, 14, 21, 22, 25, 101, 111, 1_002].map(bytes);
     let broken = text!("{} {0|byte|bytes}", number(1.5));
@@ -42,7 +42,10 @@ fn a_catalogue_translates_texts_numbers_and_forms() {
 
     assert_eq!(said.0, "not in it");
     assert_eq!(said.1, "an encoder: 12,50°");
-    assert_eq!((said.2, said.3), ("Угол.".into(), "Turns.".into()));
+    assert_eq!(
+        (said.2, said.3),
+        ("Угол.".into(), "Angle within one turn.".into())
+    );
     let ends: Vec<_> = forms
         .iter()
         .map(|form| form.trim_start_matches(['-', '0', '1', '2', '3', '4', '5', ' ']))
