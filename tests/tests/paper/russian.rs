@@ -7,14 +7,14 @@ use encoderscope::{
     errata::ERRATA,
     lamp::{self, BATTERY, Health, Lamp, Light},
     language::{self, Catalogue, t},
-    model::{self, FORMS, Form, RULES},
+    model::{self, FORMS, Form, RULES, Token},
     procedure,
     product::{
         Interface, Series,
         facts::{FACTS, Group},
         sizes::THICKNESS,
     },
-    wiring::{Adapter, Battery, Setup, svg},
+    wiring::{Adapter, Battery, Paint, Setup, svg},
 };
 use std::{collections::BTreeMap, fs, path::Path};
 
@@ -43,9 +43,7 @@ fn english(text: &str) -> Option<String> {
     let words: Vec<&str> = text
         .split(|letter: char| letter.is_whitespace() || ",.;:()".contains(letter))
         .collect();
-    let found = words
-        .windows(2)
-        .find(|pair| pair.iter().all(|word| is_word(&word)))?;
+    let found = words.windows(2).find(|pair| pair.iter().all(is_word))?;
     let pair = found.join(" ");
     (!STAYS.contains(&pair.as_str())).then(|| format!("{pair:?} in {text:?}"))
 }
@@ -122,7 +120,7 @@ fn wirings(said: &mut Vec<String>) {
                     for wire in &wiring.wires {
                         said.extend([t(wire.note), t(wire.signal)].map(String::from));
                         said.extend(wire.goes.map(|terminal| t(terminal.name).into()));
-                        said.extend(wire.paint.map(|paint| paint.title()));
+                        said.extend(wire.paint.map(Paint::title));
                     }
                     for warning in &wiring.warnings {
                         said.extend([warning.text.clone(), warning.source.into()]);
@@ -178,7 +176,7 @@ fn order_codes(said: &mut Vec<String>) {
             Ok(model) => {
                 said.extend(model.notes());
                 said.extend([t(model.series_name()), t(model.form.source)].map(String::from));
-                said.extend(model.tokens.iter().map(|token| token.doc()));
+                said.extend(model.tokens.iter().map(Token::doc));
             }
             Err(error) => said.push(error.to_string()),
         }
@@ -197,7 +195,7 @@ fn order_codes(said: &mut Vec<String>) {
     }
     let mpp = Form::named("MPP").unwrap();
     let texts: [&str; 0] = [];
-    said.extend(mpp.choices(4, &texts).iter().map(|token| token.doc()));
+    said.extend(mpp.choices(4, &texts).iter().map(Token::doc));
 }
 
 fn tables(said: &mut Vec<String>) {
