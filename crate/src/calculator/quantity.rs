@@ -38,6 +38,7 @@ pub enum Measure {
 const CYRILLIC: &[(&str, &str)] = &[
     ("бит", "bits"),
     ("бита", "bits"),
+    ("биты", "bits"),
     ("Гц", "Hz"),
     ("кГц", "kHz"),
     ("МГц", "MHz"),

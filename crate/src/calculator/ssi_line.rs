@@ -156,7 +156,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
             message: text!(
                 "{} bits: a word of {} has {}…{}",
                 bits,
-                format.title(),
+                t(format.title()),
                 least,
                 most
             ),
