@@ -129,8 +129,9 @@ fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
             (Kind::Skip(why), _) => why.to_string(),
             (Kind::Frame { .. }, None) => t("no frame of this format").into(),
             (Kind::Frame { .. }, Some(frame)) => {
-                let first = frame.faults().first();
-                first.map_or_else(String::new, |fault| fault.kind.to_string())
+                let faults = frame.faults();
+                let first = faults.first().map(|fault| fault.kind.to_string());
+                first.unwrap_or_default()
             }
         },
     }
