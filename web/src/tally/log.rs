@@ -130,8 +130,8 @@ fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
             (Kind::Frame { .. }, None) => t("no frame of this format").into(),
             (Kind::Frame { .. }, Some(frame)) => {
                 let faults = frame.faults();
-                let first = faults.first();
-                first.map_or_else(String::new, |fault| fault.kind.to_string())
+                let first = faults.first().map(|fault| fault.kind.to_string());
+                first.unwrap_or_default()
             }
         },
     }

@@ -130,8 +130,8 @@ fn Row(
         });
         let verdict = match shape.ok {
             Some(true) => ("verdict good", "✓".to_owned()),
-            Some(false) => ("verdict bad", shape.text),
-            None => ("verdict", shape.text),
+            Some(false) => ("verdict bad", t(&shape.text).to_owned()),
+            None => ("verdict", t(&shape.text).to_owned()),
         };
         let (direction, arrow) = if shape.sent {
             (msg("sent"), "→")

@@ -7,7 +7,7 @@ pub(crate) use chart::{Canvas, Chart};
 use crate::app::App;
 use chart::{ChartView, Height, value_at, value_text};
 use encoderscope::{
-    language::{msg, number, t},
+    language::{number, t},
     text,
 };
 use encoderscope_web::{
