@@ -129,9 +129,17 @@ fn Heading() -> impl IntoView {
 
 /// The name of a kind of frame for people.
 fn kind_title(name: &str) -> String {
+    let title = |name: &str| match name {
+        "get" => t("get").to_owned(),
+        "identity" => t("identity").to_owned(),
+        "memory-read" => t("memory read").to_owned(),
+        "memory-write" => t("memory write").to_owned(),
+        "twice" => t("twice").to_owned(),
+        other => t(&other.replace('-', " ")).to_owned(),
+    };
     match name.strip_prefix("request-") {
-        Some(name) => text!("request {}", t(name).replace('-', " ")),
-        None => t(name).replace('-', " "),
+        Some(name) => text!("request {}", title(name)),
+        None => title(name),
     }
 }
 
