@@ -34,6 +34,7 @@ const named = {
     const paths = [
       'web/pkg/npm/encoder-frame.js',
       'web/pkg/npm/encoder-frame_bg.wasm',
+      'web/pkg/npm/ru.json',
       ...icons.map((icon) => `web/icons/${icon}`),
     ];
     for (const path of paths) {

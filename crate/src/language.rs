@@ -50,6 +50,12 @@ impl Catalogue {
             .map(|(english, other)| (kept(english.into()), kept(other.into())))
             .collect();
         texts.sort_unstable();
+        Self::sorted(texts)
+    }
+
+    /// A catalogue of pairs that are kept already, sorted by the first.
+    #[must_use]
+    pub fn sorted(texts: Vec<(&'static str, &'static str)>) -> &'static Self {
         Box::leak(Box::new(Self { texts }))
     }
 

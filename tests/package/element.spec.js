@@ -51,6 +51,15 @@ test('checks that stay, by attribute and by hand', async ({ page }) => {
   await expect(verdict(element)).toContainText('refused');
 });
 
+test('in the language of the document, or its own', async ({ page }) => {
+  const element = await show(page, `<div lang="ru">${BISS}</div>`);
+  await expect(verdict(element)).toHaveText('годный кадр; 180°; обороты: 5');
+  await bits(element).nth(24).click();
+  await expect(verdict(element)).toHaveText('годный кадр; 0°; обороты: 5');
+  await element.evaluate((it) => it.setAttribute('lang', 'en'));
+  await expect(verdict(element)).toHaveText('good frame; 0°; turns: 5');
+});
+
 test('with the keyboard alone', async ({ page }) => {
   const element = await show(page, `<a href="#">before</a>${BISS}`);
   await page.getByRole('link').focus();

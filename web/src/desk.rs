@@ -101,7 +101,8 @@ struct State {
     captured: Captured,
     judge: Judge,
     shown: (Filter, Option<Order>),
-    /// A row that is to be explained as soon as it is there.
+    /// The row that was explained last, and one that is to be as soon as it is there.
+    explained: Option<usize>,
     awaited: Option<usize>,
     /// How often rows have been chosen and sorted.
     arranged: u32,
@@ -144,6 +145,7 @@ impl Desk {
                 captured: Captured::default(),
                 judge: Judge::default(),
                 shown: (Filter::default(), None),
+                explained: None,
                 awaited: None,
                 arranged: 0,
                 told: 0.0,
@@ -214,6 +216,8 @@ impl Desk {
             state.tape = Tape::None;
             state.judge = Judge::default();
             state.profile = link::profile(profile).ok();
+            state.explained = None;
+            state.awaited = None;
         }
         self.begin();
     }
@@ -329,6 +333,7 @@ impl Desk {
         let mut state = self.state.borrow_mut();
         state.awaited = (explained.is_none() && !state.done).then_some(index);
         if let Some(mut explained) = explained {
+            state.explained = Some(index);
             explained.says.extend(state.captured.said_of(index));
             drop(state);
             self.post(FromDesk::Explained(Box::new(explained)));

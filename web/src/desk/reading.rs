@@ -80,10 +80,9 @@ impl Desk {
             let mut state = self.state.borrow_mut();
             state.judge.forget();
             if state.source.is_none() {
-                drop(state);
-                let (found, done) = (Vec::new(), true);
-                return self.post(FromDesk::Candidates { found, done });
+                return;
             }
+            state.awaited = state.awaited.or(state.explained);
             let whole = matches!(state.paper, Paper::Whole(_)) && !state.captured.is_some();
             if !(state.done && whole) {
                 drop(state);

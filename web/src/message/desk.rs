@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 /// From the page to the worker. A file comes beside its message.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ToDesk {
-    /// Speak the language of the texts that come with this; English where none come.
+    /// Speak the language of the texts that come with this, English where none come, and say all that
+    /// was said of the input once more.
     Speak,
     /// Text was pasted or typed.
     Text {

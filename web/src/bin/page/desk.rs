@@ -1,11 +1,13 @@
 //! The page's end of the worker that decodes dumps: what was asked of it, and what it said.
 
 mod link;
+mod named;
 
 pub(crate) use link::end_text;
+pub(crate) use named::Named;
 
 use crate::{Workers, app::App, handout::save, language::Spoken};
-use encoderscope::{explain::grouped, language::t, profile::Profile, text};
+use encoderscope::{language::t, profile::Profile};
 use encoderscope_web::{
     browser::Peer,
     link::{self as links, query},
@@ -35,28 +37,6 @@ pub(crate) enum Choice {
     User,
     /// Nobody: what the input is taken for decides.
     Nobody,
-}
-
-/// What the input is called where it is not the text of the box.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Named {
-    /// A link carried it.
-    Linked,
-    /// So many bytes were pasted that they are better not shown.
-    Pasted(usize),
-    /// A file.
-    File(String),
-}
-
-impl Named {
-    /// The name for people.
-    pub(crate) fn title(&self) -> String {
-        match self {
-            Self::Linked => t("frames from a link").to_owned(),
-            Self::Pasted(bytes) => text!("pasted text, {} {0|byte|bytes}", grouped(*bytes as u64)),
-            Self::File(name) => name.clone(),
-        }
-    }
 }
 
 /// A message, and the file beside it.
@@ -187,7 +167,8 @@ impl Desk {
             self.spoken.language.track();
             if before.is_some() {
                 // What was found is being said anew.
-                self.judging.set(!self.is_empty());
+                let lines = self.overview.with_untracked(|overview| overview.lines);
+                self.judging.set(lines > 0.0);
                 self.candidates.set(Vec::new());
                 self.near.set(Vec::new());
                 self.report.set(Vec::new());

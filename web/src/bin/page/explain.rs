@@ -76,16 +76,6 @@ pub(crate) fn Explain() -> impl IntoView {
 fn Heading() -> impl IntoView {
     let app = expect_context::<App>();
     let paper = app.paper();
-    let title = move || {
-        let (title, count, bytes) = paper
-            .plan
-            .with(|plan| (plan.title.clone(), plan.cells.len(), plan.bytes));
-        let order = match bytes {
-            true => text!("{} {0|byte|bytes}", count / 8),
-            false => text!("{} bits, first on the wire on the left", count),
-        };
-        view! { {title} <span>{order}</span> }
-    };
     let kinds = Memo::new(move |_| {
         let _ = paper.plan.get();
         let kinds = paper.with(|sketch| sketch.decoder().frame_kinds());
@@ -94,6 +84,18 @@ fn Heading() -> impl IntoView {
             .map(|kind| (kind.name, kind.title))
             .collect::<Vec<_>>()
     });
+    let title = move || {
+        let (name, count, bytes) = paper
+            .plan
+            .with(|plan| (plan.kind().to_owned(), plan.cells.len(), plan.bytes));
+        let mut kinds = kinds.get().into_iter();
+        let title = kinds.find(|known| known.0 == name).map(|known| known.1);
+        let order = match bytes {
+            true => text!("{} {0|byte|bytes}", count / 8),
+            false => text!("{} bits, first on the wire on the left", count),
+        };
+        view! { {title} <span>{order}</span> }
+    };
     let chosen = move || paper.plan.with(|plan| plan.kind().to_owned());
     let choose = move |name: String| paper.choose(app.profile.get_untracked(), &name);
     view! {
@@ -127,9 +129,17 @@ fn Heading() -> impl IntoView {
 
 /// The name of a kind of frame for people.
 fn kind_title(name: &str) -> String {
+    let title = |name: &str| match name {
+        "get" => t("get").to_owned(),
+        "identity" => t("identity").to_owned(),
+        "memory-read" => t("memory read").to_owned(),
+        "memory-write" => t("memory write").to_owned(),
+        "twice" => t("twice").to_owned(),
+        other => t(&other.replace('-', " ")).to_owned(),
+    };
     match name.strip_prefix("request-") {
-        Some(name) => text!("request {}", t(name).replace('-', " ")),
-        None => t(name).replace('-', " "),
+        Some(name) => text!("request {}", title(name)),
+        None => title(name),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::app::App;
 use encoderscope::{
     format::{Format, rs485::Command},
-    language::t,
+    language::{msg, t},
     profile::Profile,
     text,
 };
@@ -221,10 +221,43 @@ fn writes(name: &str, word: &str) -> bool {
     name == "command" && Command::parse(word).is_some_and(Command::changes_encoder)
 }
 
+/// Words of parameters that another language has its own words for, each with its parameter: gray
+/// is a code here.
+const WORDS: [&str; 15] = [
+    msg("align.right"),
+    msg("align.tree"),
+    msg("code.binary"),
+    msg("code.gray"),
+    msg("justify.left"),
+    msg("justify.right"),
+    msg("marker.first"),
+    msg("marker.none"),
+    msg("parity.even"),
+    msg("parity.none"),
+    msg("parity.odd"),
+    msg("status-active.high"),
+    msg("status-active.low"),
+    msg("turns-code.signed"),
+    msg("turns-code.unsigned"),
+];
+
+/// A word of a parameter in the language of the page.
+pub(crate) fn spoken_word(name: &str, word: &'static str) -> &'static str {
+    let known = WORDS.iter().find(|known| {
+        let (parameter, value) = known.split_once('.').unwrap_or_default();
+        parameter == name && value == word
+    });
+    // Where nothing else is said the name of the text comes back.
+    let said = known
+        .map(|known| t(known))
+        .filter(|said| !said.ends_with(word));
+    said.unwrap_or(word)
+}
+
 /// What a word is called on the page.
 fn title(name: &str, word: &'static str) -> String {
     match (name, Command::parse(word)) {
         ("command", Some(command)) => format!("{word} · {}", t(command.title())),
-        _ => t(word).to_owned(),
+        _ => spoken_word(name, word).to_owned(),
     }
 }

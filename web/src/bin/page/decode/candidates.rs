@@ -1,6 +1,6 @@
 //! What the input may be; a click reads it that way.
 
-use crate::{app::App, desk::Choice};
+use crate::{app::App, desk::Choice, profile_editor::spoken_word};
 use encoderscope::{format::Format, language::t, profile::Profile, text};
 use encoderscope_web::{
     link,
@@ -24,8 +24,8 @@ pub(super) fn describe(profile: &Profile) -> String {
         Format::SsiTree => {
             text += &text!(
                 ", {}, {}, {} clocks",
-                t(profile.code.name()),
-                t(profile.align.name()),
+                spoken_word("code", profile.code.name()),
+                spoken_word("align", profile.align.name()),
                 profile.frame_bits
             );
         }

@@ -139,6 +139,8 @@ pub(super) fn OwnEditor() -> impl IntoView {
         Ok(framing) => change(&|written| written.framing = framing),
         Err(why) => fault.set(Some(why)),
     };
+    let titles = [t("Kind"), t("Bits"), t("Name"), t("low"), t("Details")]
+        .map(|title| view! { <th>{title.to_lowercase()}</th> });
     view! {
         <div class="own" data-testid="own">
             <div class="profile">
@@ -187,7 +189,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
                 _ => None,
             }}
             <table>
-                <thead><tr><th>{t("kind")}</th><th>{t("bits")}</th><th>{t("name")}</th><th>{t("low")}</th><th>{t("details")}</th><th></th></tr></thead>
+                <thead><tr>{titles.into_view()}<th></th></tr></thead>
                 <tbody>
                     {move || written.get().map(|written| {
                         written.fields.into_iter().enumerate().map(|(index, draft)| field(index, draft)).collect_view()

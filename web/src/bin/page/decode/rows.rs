@@ -219,7 +219,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
                                 <Heading by=Quantity::Angle title=t("angle") />
                                 <Heading by=Quantity::Status title=t("status") />
                                 <th class="check">{t("check")}</th>
-                                <th class="hex">{t("bytes")}</th>
+                                <th class="hex">{t("Bytes").to_lowercase()}</th>
                             </tr>
                         </thead>
                         <tbody>{visible}</tbody>
@@ -478,7 +478,10 @@ fn FilterBar() -> impl IntoView {
                         }
                     >
                         {Quantity::ALL.into_iter().map(|known| view! {
-                            <option value=known.name() selected=known == chosen>{t(known.name())}</option>
+                            <option value=known.name() selected=known == chosen>{match known {
+                                Quantity::Start => t("Start").to_lowercase(),
+                                known => t(known.name()).to_owned(),
+                            }}</option>
                         }).collect_view()}
                     </select>
                 </label>

@@ -51,7 +51,6 @@ impl FieldPlan {
 /// What does not change while bits do: elements stay, and so does the focus.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Plan {
-    pub(super) title: String,
     pub(super) fields: Vec<FieldPlan>,
     /// The field of each bit.
     pub(super) cells: Vec<Option<usize>>,
@@ -80,7 +79,6 @@ impl Plan {
         }
         let profile = *sketch.decoder().profile();
         Self {
-            title: kind.title.clone(),
             fields: fields.collect(),
             cells,
             bytes: profile.is_serial(),
