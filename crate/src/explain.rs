@@ -163,7 +163,7 @@ impl Resolved {
         let profile = &self.shape.profile;
         let known = match profile.format {
             Format::Rs485 => Command::of_byte(code)
-                .map(|command| format!("‘{}’: {}", command.letter(), t(command.title()))),
+                .map(|command| text!("‘{}’: {}", command.letter(), t(command.title()))),
             Format::T485 => Request::of_operation(code)
                 .map(|request| format!("0x{:02X}: {}", request.byte(), t(request.title()))),
             Format::Bus => Operation::of_code(code)
