@@ -13,7 +13,7 @@
 //! assert_eq!(busy.text, "the word is on its way");
 //! ```
 
-mod tables;
+pub mod tables;
 mod word;
 
 pub use word::{Form, Word, WordError};
