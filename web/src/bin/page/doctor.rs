@@ -275,8 +275,8 @@ fn link_text(link: &Link, app: App) -> (&'static str, String) {
         Link::Silent { echo: false } => (
             t("No answer"),
             t(
-                "Nothing comes back. Check the supply, swap A and B, check the baud rate and the order code, or \
-                 let the page find the encoder.",
+                "Nothing comes back. Check the supply, swap A and B, check the baud rate and the \
+               order code, or let the page find the encoder.",
             ),
         ),
         Link::Silent { echo: true } => (
@@ -286,15 +286,15 @@ fn link_text(link: &Link, app: App) -> (&'static str, String) {
         Link::Garbage => (
             t("Bytes, but no frames"),
             t(
-                "Check the baud rate and the order code, swap A and B, add the terminator; or let the page find \
-                 the encoder.",
+                "Check the baud rate and the order code, swap A and B, add the terminator; or let \
+               the page find the encoder.",
             ),
         ),
         Link::Failing => (
             t("Frames, but no check holds"),
             t(
-                "The line is disturbed: check terminator, shield and supply, and that the adapter makes this baud \
-                 rate.",
+                "The line is disturbed: check terminator, shield and supply, and that the adapter \
+               makes this baud rate.",
             ),
         ),
         Link::OtherProfile { .. } => (
@@ -316,7 +316,8 @@ fn link_text(link: &Link, app: App) -> (&'static str, String) {
         Link::Lost => (
             t("The port is gone"),
             t(
-                "The adapter was unplugged, or the permission for it withdrawn. Plug it in and reconnect.",
+                "The adapter was unplugged, or the permission for it withdrawn. Plug it in and \
+               reconnect.",
             ),
         ),
     };
