@@ -91,14 +91,6 @@ pub fn t(english: &str) -> &str {
     found.unwrap_or(english)
 }
 
-/// What `say` says in English, whatever is spoken: for files that others read.
-pub fn english<T>(say: impl FnOnce() -> T) -> T {
-    let speaks = SPEAKS.swap(false, Ordering::Relaxed);
-    let said = say();
-    SPEAKS.store(speaks, Ordering::Relaxed);
-    said
-}
-
 /// Marks a text that [`t`] is asked for later.
 #[must_use]
 pub const fn msg(english: &'static str) -> &'static str {

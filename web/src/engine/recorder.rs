@@ -10,7 +10,7 @@ use crate::{
 };
 use copy::Copy;
 use encoderscope::{
-    language::{english, msg, t},
+    language::{in_english, msg, t},
     session::Micros,
 };
 use js_sys::{Array, Date, Uint8Array};
@@ -380,7 +380,7 @@ impl State {
             .map(|(at, text)| (at as f64 / 1e3, text.to_owned()))
             .collect();
         let (size, since) = self.tally.transcript().kept(now());
-        let snapshot = english(|| self.snapshot());
+        let snapshot = in_english(|| self.snapshot());
         // The page has not seen it.
         self.tally.touch();
         Story {

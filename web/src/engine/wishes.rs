@@ -16,7 +16,7 @@ use encoderscope::{
     emulator::{Emulator, Faults, ZeroInput},
     finder::Finder,
     format::t485::Request,
-    language::{english, t},
+    language::{in_english, t},
     sequence::danger,
     session::{Ask, Hand, Micros},
 };
@@ -97,7 +97,7 @@ impl State {
 
     /// The link is another one, or in another state.
     pub(super) fn tell_link(&mut self, now: Micros) {
-        let link = english(|| self.link_said());
+        let link = in_english(|| self.link_said());
         let name = link.name();
         let text = match &link {
             Link::Refused { reason, hint } if !hint.is_empty() => {

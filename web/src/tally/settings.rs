@@ -3,7 +3,7 @@
 use super::{Tally, frame_of, shown};
 use crate::message::{Outcome, Progress, Setting};
 use encoderscope::{
-    language::{english, msg, t},
+    language::{in_english, msg, t},
     sequence::{Event, Holds},
     session::Micros,
 };
@@ -72,7 +72,7 @@ impl Tally {
 
     fn end(&mut self, now: Micros, changed: Option<bool>, words: Words) {
         if let Some(progress) = &self.progress {
-            let text = english(&words);
+            let text = in_english(&words);
             self.note(now, &format!("{}: {text}", progress.setting.name()));
         }
         self.ending = Some(words);

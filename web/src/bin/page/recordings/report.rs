@@ -7,7 +7,7 @@ use crate::{
     doctor,
 };
 use encoderscope::{
-    language::{english, msg, t},
+    language::{in_english, msg, t},
     text,
 };
 use encoderscope_web::{
@@ -80,7 +80,7 @@ impl Report {
             adapter,
             profile: query(&profile),
             remark,
-            link: english(|| untrack(|| doctor::findings(app))),
+            link: in_english(|| untrack(|| doctor::findings(app))),
             link_said: untrack(|| doctor::findings(app)),
             history: story
                 .happenings
