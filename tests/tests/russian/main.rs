@@ -5,7 +5,7 @@
 use encoderscope::{
     bits::{BitString, Bits},
     decode::{Decoder, Frame},
-    detect::{detect, near},
+    detect::{Change, detect, near},
     dump,
     explain::Note,
     format::{Format, bus::Operation, own::SHIPPED, rs485::Command, t485::Request},
@@ -220,7 +220,7 @@ fn detected() -> Vec<String> {
     for text in dumps {
         for candidate in detect(&text) {
             texts.extend(candidate.evidence);
-            texts.extend(candidate.change.map(|change| change.sentence()));
+            texts.extend(candidate.change.map(Change::sentence));
         }
         let profile = Format::T485.default_profile();
         let dump = dump::parse(&text, profile.medium());
