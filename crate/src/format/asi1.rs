@@ -22,7 +22,7 @@
 //! certain: it is part of the CRC as received, is shown, and may be anything (`marker` says
 //! what [`crate::emulator`] sends).
 
-use super::{Format, Limits, Link, Spec, said};
+use super::{Format, Limits, Link, Spec, said, one};
 use crate::{
     check::Checksum,
     layout::{Check, Shape, layout},
@@ -44,6 +44,11 @@ pub const SPEC: Spec = Spec {
         together: POSITION,
         frame: (0, 0),
     },
+    interval: Some(INTERVAL),
+    timing: None,
+    example: said("60 00 00 06 00 35\n60 03 7f 7c 15 4a\n60 00 00 00 00 66\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&PACKET, shape),
     default: Profile {
         angle_bits: 14,
         turns_bits: 0,

@@ -17,7 +17,10 @@
 //! Where the manual misleads: it gives the range as 0…16384; 14 bits end at 16383.
 
 use super::{Format, Limits, Link, Spec, said};
-use crate::{layout::layout, profile::Profile};
+use crate::{
+    layout::{Resolved, Shape, layout},
+    profile::Profile,
+};
 
 /// ASI4.
 pub const SPEC: Spec = Spec {
@@ -34,6 +37,11 @@ pub const SPEC: Spec = Spec {
         together: 16,
         frame: (0, 0),
     },
+    interval: Some(INTERVAL),
+    timing: None,
+    example: said("8190\n8191\n8192\n"),
+    guesses: &[],
+    layouts: |_, shape| (1..=DIGITS as u32).map(|digits| Resolved::new(&LINE, Shape { digits, ..shape })).collect(),
     default: Profile {
         angle_bits: 14,
         turns_bits: 0,

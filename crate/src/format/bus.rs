@@ -51,6 +51,11 @@ pub const SPEC: Spec = Spec {
         together: 40,
         frame: (0, 0),
     },
+    interval: None,
+    timing: None,
+    example: said("1f 1f 00 56 34 12 05 00 6a\n1f 1f 00 01 a0 12 05 00 a9\n1f 1f 60 00 00 13 fe ff 6d\n"),
+    guesses: &[],
+    layouts: |_, shape| Operation::ALL.iter().map(|operation| Resolved::new(operation.reply(), shape)).collect(),
     default: Profile {
         parity: Parity::Odd,
         ..Profile::base(Format::Bus)

@@ -25,7 +25,7 @@ use super::{Format, Limits, Link, Spec, biss_c, said, ssi};
 use crate::{
     check::{Algorithm, Checksum, OwnCrc},
     language::msg,
-    layout::{Check, Cover, Layout, Piece, Row, Shape, StatusBit, Width},
+    layout::{Check, Cover, Layout, Piece, Resolved, Row, Shape, StatusBit, Width},
     profile::{Justify, Profile},
     text,
 };
@@ -59,6 +59,11 @@ pub const SPEC: Spec = Spec {
         together: 96,
         frame: (0, 0),
     },
+    interval: Some(INTERVAL),
+    timing: None,
+    example: said("00 03 08 f6 43 eb\n"),
+    guesses: &[],
+    layouts: |profile, shape| profile.own.into_iter().map(|own| Resolved::new(own.layout(), shape)).collect(),
     default: Profile {
         angle_bits: 1,
         turns_bits: 0,

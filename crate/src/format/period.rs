@@ -20,7 +20,7 @@
 //! Where the manual misleads: it names wires A and B; the frames are on TX+ and TX−, pins 5
 //! and 6.
 
-use super::{Format, Link, Spec, rs485, said};
+use super::{Format, Link, Spec, rs485, said, one};
 use crate::{layout::Layout, profile::Profile};
 
 /// PERIOD.
@@ -33,6 +33,11 @@ pub const SPEC: Spec = Spec {
     parameters: &["angle-bits", "turns-bits", "turns-code", "baud"],
     quantities: &[],
     limits: rs485::SPEC.limits,
+    interval: Some(INTERVAL),
+    timing: None,
+    example: rs485::SPEC.example,
+    guesses: &[],
+    layouts: |_, shape| one(FRAME, shape),
     default: Profile::base(Format::Period),
 };
 

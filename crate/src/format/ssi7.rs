@@ -20,8 +20,7 @@
 //! T_mu and T_mi are one time, 20 ± 1 µs after the last falling edge. In the gap between words
 //! the data line carries the error flag.
 
-use super::{
-    Format, Limits, Link, Spec, said,
+use super::{one, Format, Limits, Link, Spec, said,
     ssi::{AFTER, BEFORE},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
@@ -47,6 +46,11 @@ pub const SPEC: Spec = Spec {
         together: POSITION,
         frame: (POSITION + 2, 30),
     },
+    interval: None,
+    timing: Some(&TIMING),
+    example: said("000000000000000000000000000110\n000000000000001000000000000011\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&WORD, shape),
     default: Profile {
         angle_bits: 14,
         turns_bits: 0,

@@ -44,6 +44,11 @@ pub const SPEC: Spec = Spec {
         together: 48,
         frame: (0, 0),
     },
+    interval: None,
+    timing: None,
+    example: said("1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"),
+    guesses: &[],
+    layouts: |_, shape| Request::ALL.iter().map(|request| Resolved::new(request.reply(), shape)).collect(),
     default: Profile {
         angle_bits: 23,
         ..Profile::base(Format::T485)

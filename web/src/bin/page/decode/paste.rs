@@ -14,30 +14,6 @@ const BOXED: usize = 200_000;
 /// Letters of the text whose reading is shown.
 const SHOWN: usize = 8_000;
 
-/// An example of each format, from public captures and the manuals' rules.
-const fn example(format: Format) -> &'static str {
-    match format {
-        Format::Ssi => "00 05 12 34 56 00\n00 05 12 a0 01 00\nff fe 13 00 00 60\n",
-        Format::BissC => {
-            "82 00 05 55 a3 c1 c0 d4\n82 00 05 56 b0 f7 c0 48\n82 ff fe 80 00 01 90 88\n"
-        }
-        Format::Rs485 | Format::Period => {
-            "00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n"
-        }
-        Format::T485 => {
-            "1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"
-        }
-        Format::Bus => {
-            "1f 1f 00 56 34 12 05 00 6a\n1f 1f 00 01 a0 12 05 00 a9\n1f 1f 60 00 00 13 fe ff 6d\n"
-        }
-        Format::Asi1 => "60 00 00 06 00 35\n60 03 7f 7c 15 4a\n60 00 00 00 00 66\n",
-        Format::Asi4 => "8190\n8191\n8192\n",
-        Format::Ssi7 => "000000000000000000000000000110\n000000000000001000000000000011\n",
-        Format::SsiTree => "1010010100101001000100011\n0110001111111011110001000\n",
-        Format::Own => "00 03 08 f6 43 eb\n",
-    }
-}
-
 #[component]
 pub(super) fn Paste() -> impl IntoView {
     let app = expect_context::<App>();
@@ -126,7 +102,7 @@ pub(super) fn Paste() -> impl IntoView {
         {move || desk.refusal.get().map(|why| view! { <p class="fault" role="alert" data-testid="refusal">{why}</p> })}
         <div class="doors">
             <button data-testid="example" on:click=move |_| {
-                let text = example(app.profile.get_untracked().format);
+                let text = app.profile.get_untracked().format.spec().example;
                 desk.typed(text.into(), &profile());
             }>
                 {t("Show an example")}
