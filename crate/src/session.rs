@@ -20,6 +20,7 @@
 
 mod ask;
 mod hand;
+mod judge;
 mod output;
 mod patience;
 
@@ -48,6 +49,8 @@ const SILENCE: Micros = 500_000;
 /// of all others: this often, and for so many times the last latency.
 const LISTEN_EVERY: Micros = 5_000_000;
 const LISTEN_TIMES: Micros = 4;
+/// So often is asked what is asked once, until there is a certain reply.
+const TRIES: u8 = 3;
 /// Replies that must agree before echo is taken as known.
 const AGREE: u8 = 3;
 /// More than any reply: the line is talking without being asked.
@@ -86,10 +89,12 @@ pub struct Session {
     polls: Vec<Ask>,
     /// Which of them is next.
     turn: usize,
-    /// What is asked once, before the next poll.
-    once: VecDeque<Ask>,
+    /// What is asked once, before the next poll, and how often at most.
+    once: VecDeque<(Ask, u8)>,
     /// What is being asked.
     asked: Ask,
+    /// How often that is asked again where no certain reply comes.
+    tries: u8,
     interval: Micros,
     state: State,
     echo: Echo,
@@ -158,6 +163,7 @@ impl Session {
             polls,
             turn: 0,
             once: VecDeque::new(),
+            tries: 0,
             interval,
             state: State::Fresh,
             echo: Echo::Unknown,
@@ -171,7 +177,8 @@ impl Session {
         }
     }
 
-    /// Asks once, before the next poll; the answer is a [`Output::Frame`] like any other.
+    /// Asks once, before the next poll; the answer is a [`Output::Frame`] like any other. Where none
+    /// comes that is certain, it is asked again, three times in all.
     ///
     /// # Errors
     ///
@@ -181,7 +188,7 @@ impl Session {
         if ask.format != Some(format) {
             return Err(Refusal::NotOf(format));
         }
-        self.once.push_back(ask);
+        self.once.push_back((ask, TRIES));
         if let State::Idle(Micros::MAX) = self.state {
             self.state = State::Idle(0);
         }
@@ -351,9 +358,11 @@ impl Session {
     }
 
     fn next_ask(&mut self) -> Option<Ask> {
-        if let Some(ask) = self.once.pop_front() {
+        if let Some((ask, tries)) = self.once.pop_front() {
+            self.tries = tries.saturating_sub(1);
             return Some(ask);
         }
+        self.tries = 0;
         let ask = self.polls.get(self.turn).cloned()?;
         self.turn = (self.turn + 1) % self.polls.len();
         Some(ask)
@@ -380,144 +389,5 @@ impl Session {
             _ => 0,
         };
         now.max(sent + self.interval).max(sent + deaf)
-    }
-
-    /// Whether what looks like the reply may be the one that was missing; not where replies name
-    /// the request that they answer, and that was another one.
-    fn may_be_late(&self) -> bool {
-        self.late
-            .as_ref()
-            .is_some_and(|late| !self.decoder.echoes() || *late == self.asked.bytes)
-    }
-
-    fn holds_at(&self, offset: usize) -> bool {
-        let reply = self.received.get(offset..offset + self.asked.reply);
-        reply.is_some_and(|bytes| self.asked.is_answered_by(&self.decoder, bytes))
-    }
-
-    /// A good reply stands at `offset`, which is right for what is known of echo.
-    fn accept(&mut self, now: Micros, sent: Micros, offset: usize) {
-        self.emit(now, sent, offset, Some(offset));
-        self.patience.answered(now - sent);
-        let mut next = self.next_request(now, sent);
-        if now > self.listened + LISTEN_EVERY {
-            self.listened = now;
-            next = next.max(now + LISTEN_TIMES * (now - sent));
-        }
-        self.state = State::Idle(next);
-    }
-
-    /// The line is quiet or the time is up: makes the best of what has come.
-    fn judge(&mut self, now: Micros, sent: Micros) {
-        let have = self.received.len();
-        let front = self.asked.bytes.len();
-        let echoed = self.received.starts_with(&self.asked.bytes);
-        let plain = self.holds_at(0);
-        let behind = echoed && self.holds_at(front);
-        // Where both hold, the last byte must be explained as well.
-        let found = match (plain, behind) {
-            (true, true) if have > self.asked.reply => Some(front),
-            (true, _) => Some(0),
-            (false, true) => Some(front),
-            (false, false) => None,
-        };
-        if let Some(offset) = found {
-            let alone = have == self.asked.reply + offset;
-            if alone && !self.may_be_late() {
-                self.vote(if offset > 0 {
-                    Echo::Present
-                } else {
-                    Echo::Absent
-                });
-                return self.accept(now, sent, offset);
-            }
-            // It may answer an earlier request, or belong to a talk that nobody asked for.
-            let quiet = if self.may_be_late() {
-                self.patience.time()
-            } else {
-                QUIET
-            };
-            self.late = None;
-            self.emit(now, sent, offset, None);
-            self.state = State::Draining(now + quiet);
-            return;
-        }
-        let only_echo = echoed && have == front;
-        if have == 0 || only_echo {
-            let bytes = core::mem::take(&mut self.received);
-            self.skip(&bytes, Why::Request);
-            self.output.push_back(Output::Silent { echo: only_echo });
-            self.late = Some(self.asked.bytes.clone());
-            // Among several, one that is away must not hold up the others.
-            if self.polls.len() < 2 {
-                self.patience.grow();
-            }
-        } else if have < self.asked.reply {
-            let bytes = core::mem::take(&mut self.received);
-            self.skip(
-                &bytes,
-                Why::Truncated {
-                    have,
-                    need: self.asked.reply,
-                },
-            );
-        } else {
-            let last = have - self.asked.reply;
-            let echo = if self.echo == Echo::Present { front } else { 0 };
-            let exact = echo.min(last);
-            let late = (last > front && self.holds_at(last)).then_some(last);
-            self.emit(now, sent, late.unwrap_or(exact), None);
-        }
-        self.state = State::Draining(now + QUIET);
-    }
-
-    fn vote(&mut self, echo: Echo) {
-        if self.echo == echo {
-            return;
-        }
-        let agrees = match self.votes {
-            0 => true,
-            votes => (votes > AGREE) == (echo == Echo::Present),
-        };
-        // Votes count from 1 for absent and from AGREE + 1 for present.
-        let base = if echo == Echo::Present { AGREE + 1 } else { 1 };
-        self.votes = if agrees && self.votes > 0 {
-            self.votes + 1
-        } else {
-            base
-        };
-        self.echo = Echo::Unknown;
-        if self.votes >= base + AGREE - 1 {
-            self.echo = echo;
-            self.votes = 0;
-        }
-    }
-
-    /// Reports the reply at `offset` and the bytes around it.
-    fn emit(&mut self, now: Micros, sent: Micros, offset: usize, good: Option<usize>) {
-        let bytes = core::mem::take(&mut self.received);
-        let (before, rest) = bytes.split_at(offset);
-        let (reply, after) = rest.split_at(self.asked.reply);
-        let why = if before == self.asked.bytes {
-            Why::Request
-        } else {
-            Why::NoFrame
-        };
-        self.skip(before, why);
-        self.output.push_back(Output::Frame {
-            bytes: reply.into(),
-            sure: good.is_some(),
-            latency: Some(now - sent),
-        });
-        self.skip(after, Why::NoFrame);
-    }
-
-    fn skip(&mut self, bytes: &[u8], why: Why) {
-        if !bytes.is_empty() {
-            self.output.push_back(Output::Skip {
-                bytes: bytes.into(),
-                why,
-            });
-        }
     }
 }

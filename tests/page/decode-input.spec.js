@@ -415,8 +415,8 @@ test('100 MB open with progress, the page stays awake, and reading can be stoppe
   expect(times.size).toBeGreaterThan(100e6);
   expect(times.count).toBe(times.size / (good.length + 1));
   expect(times.rows).toBeLessThan(1_000);
-  // One hiccup may be the test machine's; a page that is busy has many.
-  expect(times.long.filter((duration) => duration > 100).length).toBeLessThan(2);
+  // A few hiccups may be the test machine's; a page that is busy has many.
+  expect(times.long.filter((duration) => duration > 100).length).toBeLessThan(5);
 
   // Scrolling through millions of rows, with the wheel and with the bar: there are always some.
   const empty = await page.evaluate(async () => {

@@ -6,7 +6,7 @@ use encoderscope::{
     emulator::{Emulator, Faults, Shaft},
     format::{rs485, t485},
     reading::Reading,
-    session::{Echo, Micros, Output, Refusal, Session},
+    session::{Ask, Echo, Micros, Output, Refusal, Session},
 };
 use encoderscope_tests::decoder;
 
@@ -28,6 +28,8 @@ struct Pair {
     now: Micros,
     /// Answers are delivered in pieces of so many bytes.
     piece: usize,
+    /// What has been asked.
+    asked: Vec<Vec<u8>>,
 }
 
 impl Log {
@@ -52,6 +54,7 @@ impl Pair {
             emulator,
             now: 0,
             piece: usize::MAX,
+            asked: Vec::new(),
         }
     }
 
@@ -68,7 +71,10 @@ impl Pair {
             }
             while let Some(output) = self.session.poll_output() {
                 match output {
-                    Output::Transmit(bytes) => self.emulator.handle_input(self.now, &bytes),
+                    Output::Transmit(bytes) => {
+                        self.emulator.handle_input(self.now, &bytes);
+                        self.asked.push(bytes);
+                    }
                     Output::Frame { bytes, sure, .. } => {
                         log.framed += bytes.len();
                         let layout = self.session.decoder().layout(&bytes);
@@ -256,6 +262,34 @@ fn ask(session: &mut Session) -> Micros {
             return now;
         }
     }
+}
+
+#[test]
+fn what_is_asked_once_is_asked_again_until_the_reply_is_certain() {
+    let mut pair = Pair::new("format=t485 dialect=tamagawa", Shaft::still(0.5));
+    pair.run(SECOND);
+    let ask = Ask::t485(pair.session.decoder(), t485::Request::MemoryRead, 5).unwrap();
+    let asked = |pair: &mut Pair, until: Micros| {
+        let before = pair.asked.len();
+        pair.run(until);
+        let since = &pair.asked[before..];
+        since
+            .iter()
+            .filter(|bytes| bytes[0] == ask.bytes()[0])
+            .count()
+    };
+    pair.session.ask(ask.clone()).unwrap();
+    assert_eq!(asked(&mut pair, 2 * SECOND), 1);
+    // The first reply is missing, and the second may be it.
+    pair.emulator.faults.silent = true;
+    pair.session.ask(ask.clone()).unwrap();
+    let until = pair.now + 100_000;
+    let lost = asked(&mut pair, until);
+    pair.emulator.faults.silent = false;
+    assert_eq!((lost, lost + asked(&mut pair, 6 * SECOND)), (1, 3));
+    pair.emulator.faults.silent = true;
+    pair.session.ask(ask.clone()).unwrap();
+    assert_eq!(asked(&mut pair, 20 * SECOND), 3);
 }
 
 #[test]
