@@ -253,7 +253,13 @@ fn moves(motion: &Motion, counted: &Counted, profile: &Profile, evidence: &mut V
     }
     let goes_on = motion.smooth > 0 && motion.smooth * 2 >= motion.steps;
     if goes_on {
-        evidence.push(text!("the position is continuous: {} of {} steps go on from those before, by chance 1 in 2^{}", motion.smooth, motion.steps, motion.gain));
+        evidence.push(text!(
+            "the position is continuous: {} of {} steps go on from those before, by chance 1 in \
+             2^{}",
+            motion.smooth,
+            motion.steps,
+            motion.gain
+        ));
     } else if motion.steps > 0 {
         evidence.push(match motion.jumps {
             0 => t("the shaft hardly moves").to_string(),
