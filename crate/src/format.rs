@@ -202,7 +202,12 @@ pub const TIMES: u8 = 10;
 
 /// What only the reference says, left out where a program must be small.
 pub(crate) const fn said(text: &'static str) -> &'static str {
-    if cfg!(feature = "small") { "" } else { text }
+    spared(text)
+}
+
+/// What is no text, left out where a program must be small.
+pub(crate) const fn spared(data: &'static str) -> &'static str {
+    if cfg!(feature = "small") { "" } else { data }
 }
 
 /// The only layout of a format.

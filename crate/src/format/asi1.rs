@@ -22,7 +22,7 @@
 //! certain: it is part of the CRC as received, is shown, and may be anything (`marker` says
 //! what [`crate::emulator`] sends).
 
-use super::{Format, Limits, Link, Spec, said, one};
+use super::{Format, Limits, Link, Spec, said, one, spared};
 use crate::{
     check::Checksum,
     layout::{Check, Shape, layout},
@@ -46,7 +46,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: Some(INTERVAL),
     timing: None,
-    example: said("60 00 00 06 00 35\n60 03 7f 7c 15 4a\n60 00 00 00 00 66\n"),
+    example: spared("60 00 00 06 00 35\n60 03 7f 7c 15 4a\n60 00 00 00 00 66\n"),
     guesses: &[],
     layouts: |_, shape| one(&PACKET, shape),
     default: Profile {

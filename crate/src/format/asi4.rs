@@ -16,7 +16,7 @@
 //!
 //! Where the manual misleads: it gives the range as 0…16384; 14 bits end at 16383.
 
-use super::{Format, Limits, Link, Spec, said};
+use super::{Format, Limits, Link, Spec, said, spared};
 use crate::{
     layout::{Resolved, Shape, layout},
     profile::Profile,
@@ -39,7 +39,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: Some(INTERVAL),
     timing: None,
-    example: said("8190\n8191\n8192\n"),
+    example: spared("8190\n8191\n8192\n"),
     guesses: &[],
     layouts: |_, shape| (1..=DIGITS as u32).map(|digits| Resolved::new(&LINE, Shape { digits, ..shape })).collect(),
     default: Profile {

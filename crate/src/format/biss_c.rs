@@ -21,7 +21,7 @@
 //! CRC; their own status table and frame lengths fit only error b13, warning b12, status
 //! b11…b6, CRC b5…b0. The CRC-6 polynomial is x⁶+x+1, not x⁶+x⁵+1.
 
-use super::{one, Format, Limits, Link, STATUS, Spec, said,
+use super::{spared, one, Format, Limits, Link, STATUS, Spec, said,
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
 use crate::{
@@ -58,7 +58,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: None,
     timing: Some(&TIMING),
-    example: said("82 00 05 55 a3 c1 c0 d4\n82 00 05 56 b0 f7 c0 48\n82 ff fe 80 00 01 90 88\n"),
+    example: spared("82 00 05 55 a3 c1 c0 d4\n82 00 05 56 b0 f7 c0 48\n82 ff fe 80 00 01 90 88\n"),
     guesses: &[],
     layouts: |_, shape| one(&FRAME, shape),
     default: Profile {

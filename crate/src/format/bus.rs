@@ -20,7 +20,7 @@
 //! bits; models XXM count 16 bits and sleep 32 µs up to 16 bits per turn, 36 µs above. The sense
 //! of the parity is likely, not certain: it is shown, and a frame is not refused for it.
 
-use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding};
+use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding, spared};
 use crate::{
     check::Checksum,
     language::msg,
@@ -53,7 +53,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: None,
     timing: None,
-    example: said("1f 1f 00 56 34 12 05 00 6a\n1f 1f 00 01 a0 12 05 00 a9\n1f 1f 60 00 00 13 fe ff 6d\n"),
+    example: spared("1f 1f 00 56 34 12 05 00 6a\n1f 1f 00 01 a0 12 05 00 a9\n1f 1f 60 00 00 13 fe ff 6d\n"),
     guesses: &[],
     layouts: |_, shape| Operation::ALL.iter().map(|operation| Resolved::new(operation.reply(), shape)).collect(),
     default: Profile {

@@ -21,7 +21,7 @@ pub(crate) use draft::LONGEST_NAME;
 pub use draft::{CrcRule, Draft, Framing, Kind, MOST_FIELDS, Written};
 pub use shipped::{SHIPPED, Shipped};
 
-use super::{Format, Limits, Link, Spec, biss_c, said, ssi};
+use super::{spared, Format, Limits, Link, Spec, biss_c, said, ssi};
 use crate::{
     check::{Algorithm, Checksum, OwnCrc},
     language::msg,
@@ -61,7 +61,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: Some(INTERVAL),
     timing: None,
-    example: said("00 03 08 f6 43 eb\n"),
+    example: spared("00 03 08 f6 43 eb\n"),
     guesses: &[],
     layouts: |profile, shape| profile.own.into_iter().map(|own| Resolved::new(own.layout(), shape)).collect(),
     default: Profile {

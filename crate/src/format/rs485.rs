@@ -20,7 +20,7 @@
 //! (single turn: five), 0x31 six. PT's commands 0x21, 0731 and 0704 are 0x31, 0x64 and 0x74.
 //! PT's CRC table is damaged; the polynomial is right.
 
-use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding, one};
+use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding, one, spared};
 use crate::{
     check::Checksum,
     language::msg,
@@ -47,7 +47,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: None,
     timing: None,
-    example: said("00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n"),
+    example: spared("00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n"),
     guesses: &[],
     layouts: |profile, shape| one(profile.command.reply(), shape),
     default: Profile::base(Format::Rs485),

@@ -20,7 +20,7 @@
 //! Where the manuals mislead: MPP's row calls b5…b0 "1 bit", there are six; the row "t_CL 400
 //! ns…14 µs" is the clock's period and contradicts the row of frequencies, which is right.
 
-use super::{one, Format, HEALTH, Limits, Link, Spec, said,
+use super::{spared, one, Format, HEALTH, Limits, Link, Spec, said,
     timing::{Beyond, MICROSECOND, NANOSECOND, Positions, Timing, Words},
 };
 use crate::{
@@ -48,7 +48,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: None,
     timing: Some(&TIMING),
-    example: said("00 05 12 34 56 00\n00 05 12 a0 01 00\nff fe 13 00 00 60\n"),
+    example: spared("00 05 12 34 56 00\n00 05 12 a0 01 00\nff fe 13 00 00 60\n"),
     guesses: &[],
     layouts: |_, shape| one(&WORD, shape),
     default: Profile::base(Format::Ssi),

@@ -20,7 +20,7 @@
 //! T_mu and T_mi are one time, 20 ± 1 µs after the last falling edge. In the gap between words
 //! the data line carries the error flag.
 
-use super::{one, Format, Limits, Link, Spec, said,
+use super::{spared, one, Format, Limits, Link, Spec, said,
     ssi::{AFTER, BEFORE},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
@@ -48,7 +48,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: None,
     timing: Some(&TIMING),
-    example: said("000000000000000000000000000110\n000000000000001000000000000011\n"),
+    example: spared("000000000000000000000000000110\n000000000000001000000000000011\n"),
     guesses: &[],
     layouts: |_, shape| one(&WORD, shape),
     default: Profile {

@@ -22,7 +22,7 @@
 //! Where the article misleads: 16 bits are 65 536 values, not 32 688; the rows of table 1 have
 //! 25 and 26 columns, so the word length and the place of the parity are parameters.
 
-use super::{one, Format, Limits, Link, Spec, said,
+use super::{spared, one, Format, Limits, Link, Spec, said,
     ssi::{AFTER, BEFORE, with_spare},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
@@ -61,7 +61,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: None,
     timing: Some(&TIMING),
-    example: said("1010010100101001000100011\n0110001111111011110001000\n"),
+    example: spared("1010010100101001000100011\n0110001111111011110001000\n"),
     guesses: &[],
     layouts: |_, shape| one(&WORD, shape),
     default: Profile {

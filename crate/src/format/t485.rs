@@ -20,7 +20,7 @@
 //! Where the manuals mislead: the data is right-aligned, not left-aligned (note 1); the CRC is
 //! x⁸+1, not x+1 (note 2); the "17" of byte 5 is the ENID, 0x17 or 0x11, and is never required.
 
-use super::{Format, Limits, Link, Spec, said};
+use super::{Format, Limits, Link, Spec, said, spared};
 use crate::{
     bits::{self, Bits},
     check::Checksum,
@@ -46,7 +46,7 @@ pub const SPEC: Spec = Spec {
     },
     interval: None,
     timing: None,
-    example: said("1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"),
+    example: spared("1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"),
     guesses: &[],
     layouts: |_, shape| Request::ALL.iter().map(|request| Resolved::new(request.reply(), shape)).collect(),
     default: Profile {
