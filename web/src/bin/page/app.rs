@@ -456,6 +456,15 @@ fn shell(app: App) -> impl IntoView + use<> {
             {move || {
                 app.link_fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })
             }}
+            // Views without a heading of their own that says what they are.
+            {move || {
+                let named = match app.area.get() {
+                    Area::Console => app.source.get() != Source::Preview,
+                    Area::Decode | Area::Explain => true,
+                    Area::Reference => false,
+                };
+                named.then(|| view! { <h1 class="unseen">{app.area.get().title()}</h1> })
+            }}
             {move || match app.area.get() {
                 Area::Console => view! { <Console /> }.into_any(),
                 Area::Decode => later(parts::decode, coming).into_any(),

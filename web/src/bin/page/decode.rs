@@ -2,6 +2,7 @@
 
 mod candidates;
 mod chart;
+mod examples;
 mod figures;
 mod own;
 mod paste;
@@ -22,6 +23,7 @@ use encoderscope_web::{
     link::{self, Fragment},
     message::{Explained, ToDesk},
 };
+use examples::Examples;
 use figures::Figures;
 use leptos::prelude::*;
 use own::OwnEditor;
@@ -94,14 +96,7 @@ pub(crate) fn Decode() -> impl IntoView {
             </section>
             <div class="results">
                 {move || match empty.get() {
-                    true => view! {
-                        <section class="panel">
-                            <h2>{t("Frames")}</h2>
-                            <p class="hint">
-                                {t("Bytes in any writing: hexadecimal or decimal, hexdump and xxd, C arrays, terminal logs with times and directions, tables of Saleae and sigrok, strings of 0 and 1. Files too: text, binary, VCD and CSV of a logic analyser. Nothing leaves this page.")}
-                            </p>
-                        </section>
-                    }.into_any(),
+                    true => view! { <Examples /> }.into_any(),
                     false => view! { <Results shown=shown /> }.into_any(),
                 }}
                 {move || desk.explained.get().filter(|_| !empty.get()).map(|explained| view! {

@@ -449,7 +449,7 @@ fn Controls(view: View) -> impl IntoView {
 fn Readout(view: View) -> impl IntoView {
     let delta = move || view.delta();
     view! {
-        <dl
+        <div
             class="readout"
             data-testid="plot-cursor"
             data-time=move || view.cursor.get().map(|time| time.to_string())
@@ -461,17 +461,17 @@ fn Readout(view: View) -> impl IntoView {
                 let rows = view.readout();
                 match rows.is_empty() {
                     true => view! {
-                        <dt class="hint">{t("Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc.")}</dt>
+                        <p class="hint">{t("Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc.")}</p>
                     }
                         .into_any(),
-                    false => rows
-                        .into_iter()
-                        .map(|(label, value)| view! { <div><dt>{label}</dt> <dd>{value}</dd></div> })
-                        .collect_view()
-                        .into_any(),
+                    false => {
+                        let rows = rows.into_iter();
+                        let rows = rows.map(|(label, value)| view! { <div><dt>{label}</dt> <dd>{value}</dd></div> });
+                        view! { <dl>{rows.collect_view()}</dl> }.into_any()
+                    }
                 }
             }}
-        </dl>
+        </div>
     }
     .into_any()
 }

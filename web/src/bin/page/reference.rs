@@ -229,5 +229,5 @@ fn Part(profile: Profile, section: Section, children: Children) -> impl IntoView
 /// A table in a box of its own, which scrolls where it is wider than the page.
 #[component]
 fn Scroll(label: String, children: Children) -> impl IntoView {
-    view! { <div class="wide" tabindex="0" role="region" aria-label=label>{children()}</div> }
+    view! { <div class="wide" tabindex="0" role="group" aria-label=label>{children()}</div> }
 }

@@ -2,7 +2,7 @@
 
 use super::count;
 use crate::{app::App, desk::Named, parts};
-use encoderscope::{format::Format, language::t, text};
+use encoderscope::{language::t, text};
 use encoderscope_web::message::Marked;
 use js_sys::Array;
 use leptos::{ev, html, prelude::*};
