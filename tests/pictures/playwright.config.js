@@ -1,3 +1,0 @@
-import page from '../page/playwright.config.js';
-
-export default { ...page, testDir: '.' };
