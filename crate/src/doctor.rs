@@ -26,12 +26,16 @@ const FAILING_AFTER: u32 = 10;
 /// Bytes without a good frame after which a stream is called failing, and without a request
 /// after which it is called unasked.
 const BYTES_AFTER: usize = 200;
-/// So many good ones among the last frames, 64 of a stream or 32 replies, are read, however many
+/// So many good ones among the last frames of a stream, or the last replies, are read, however many
 /// others fail: by chance one in 256 passes the shortest check.
-const READ_FROM: u32 = 2;
-const REPLIES_RECENT: u64 = (1 << 32) - 1;
+const READ_FROM: usize = 2;
+const LAST_FRAMES: usize = 64;
+const LAST_REPLIES: usize = 32;
 /// So many bytes of a stream that are no frame count as one that has failed.
 const ABOUT_A_FRAME: usize = 8;
+/// Where one byte in so many is part of a frame that fails, frames come: by chance one in 256 bytes
+/// begins what passes for one.
+const FRAMES_FROM: usize = 16;
 /// Replies and bytes of a stream that are kept to be looked at.
 const REPLIES: usize = 12;
 const BYTES: usize = 2_048;
@@ -83,10 +87,13 @@ pub struct Doctor {
     finding: Finding,
     silent: u32,
     failing: u32,
-    /// The last frames, a bit each, the newest lowest: whether they were good.
-    recent: u64,
-    /// Bytes since the last good frame: of no frame, and unasked.
+    /// Frames and replies up to now, and at which of them the last good ones came.
+    frames: usize,
+    good: VecDeque<usize>,
+    /// Bytes since the last good frame: those that are none, with those of frames that failed; those
+    /// of such frames alone; and those unasked.
     strange: usize,
+    framed: usize,
     unasked: usize,
     current: Exchange,
     exchanges: VecDeque<Exchange>,
@@ -105,8 +112,10 @@ impl Doctor {
             finding: Finding::Waiting,
             silent: 0,
             failing: 0,
-            recent: 0,
+            frames: 0,
+            good: VecDeque::new(),
             strange: 0,
+            framed: 0,
             unasked: 0,
             current: Exchange::default(),
             exchanges: VecDeque::new(),
@@ -149,14 +158,16 @@ impl Doctor {
             Output::Frame { bytes, .. } => {
                 self.keep(bytes);
                 self.silent = 0;
-                self.recent = self.recent << 1 | u64::from(good);
+                self.frames += 1;
                 if good {
                     self.finding = Finding::Good;
-                    self.failing = 0;
-                    self.strange = 0;
+                    self.good.push_back(self.frames);
+                    self.good.drain(..self.good.len().saturating_sub(READ_FROM));
+                    self.begin_anew();
                     self.unasked = 0;
                 } else {
                     self.strange += bytes.len();
+                    self.framed += bytes.len();
                     self.fails(now);
                 }
             }
@@ -173,13 +184,12 @@ impl Doctor {
                     }
                     Why::Truncated { .. } => {
                         self.silent = 0;
-                        self.recent <<= 1;
+                        self.frames += 1;
                         self.fails(now);
                     }
                     Why::NoFrame => {
                         self.strange += bytes.len();
-                        let lost = bytes.len().div_ceil(ABOUT_A_FRAME) as u32;
-                        self.recent = self.recent.checked_shl(lost).unwrap_or(0);
+                        self.frames += bytes.len().div_ceil(ABOUT_A_FRAME);
                         if self.is_stream() && self.strange >= BYTES_AFTER {
                             self.silent = 0;
                             self.judge(now);
@@ -223,25 +233,37 @@ impl Doctor {
 
     /// Nothing good has come for a while: what it may be instead.
     fn judge(&mut self, now: Micros) {
+        if self.finding != Finding::Good || !self.reads_some() {
+            self.finding = match self.is_stream() {
+                true => self.judge_stream(now),
+                false => self.judge_replies(),
+            };
+            self.forget(now);
+        }
+        self.begin_anew();
+    }
+
+    /// Counts anew what fails.
+    const fn begin_anew(&mut self) {
         self.failing = 0;
         self.strange = 0;
-        let recent = match self.is_stream() {
-            true => self.recent,
-            false => self.recent & REPLIES_RECENT,
+        self.framed = 0;
+    }
+
+    /// Whether some of the last frames were good.
+    fn reads_some(&self) -> bool {
+        let last = match self.is_stream() {
+            true => LAST_FRAMES,
+            false => LAST_REPLIES,
         };
-        if self.finding == Finding::Good && recent.count_ones() >= READ_FROM {
-            return;
-        }
-        self.finding = match self.is_stream() {
-            true => self.judge_stream(now),
-            false => self.judge_replies(),
-        };
-        self.forget(now);
+        let first = self.good.front().filter(|_| self.good.len() == READ_FROM);
+        first.is_some_and(|first| self.frames - first < last)
     }
 
     fn judge_stream(&mut self, now: Micros) -> Finding {
         match self.as_stream(now) {
             Some(other) => Finding::OtherProfile(other),
+            None if self.framed * FRAMES_FROM >= self.strange => Finding::ChecksFail,
             None => Finding::Garbage,
         }
     }

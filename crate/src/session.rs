@@ -49,7 +49,7 @@ const SILENCE: Micros = 500_000;
 /// of all others: this often, and for so many times the last latency.
 const LISTEN_EVERY: Micros = 5_000_000;
 const LISTEN_TIMES: Micros = 4;
-/// So often is asked what is asked once, until there is a certain reply.
+/// What is asked once is asked so often at most, until its reply is certain.
 const TRIES: u8 = 3;
 /// Replies that must agree before echo is taken as known.
 const AGREE: u8 = 3;
@@ -89,12 +89,12 @@ pub struct Session {
     polls: Vec<Ask>,
     /// Which of them is next.
     turn: usize,
-    /// What is asked once, before the next poll, and how often at most.
-    once: VecDeque<(Ask, u8)>,
+    /// What is asked once, before the next poll; the first stays until its reply is certain.
+    once: VecDeque<Ask>,
+    /// How often the first of them has been asked.
+    tries: u8,
     /// What is being asked.
     asked: Ask,
-    /// How often that is asked again where no certain reply comes.
-    tries: u8,
     interval: Micros,
     state: State,
     echo: Echo,
@@ -188,7 +188,7 @@ impl Session {
         if ask.format != Some(format) {
             return Err(Refusal::NotOf(format));
         }
-        self.once.push_back((ask, TRIES));
+        self.once.push_back(ask);
         if let State::Idle(Micros::MAX) = self.state {
             self.state = State::Idle(0);
         }
@@ -358,11 +358,10 @@ impl Session {
     }
 
     fn next_ask(&mut self) -> Option<Ask> {
-        if let Some((ask, tries)) = self.once.pop_front() {
-            self.tries = tries.saturating_sub(1);
-            return Some(ask);
+        if let Some(ask) = self.once.front() {
+            self.tries += 1;
+            return Some(ask.clone());
         }
-        self.tries = 0;
         let ask = self.polls.get(self.turn).cloned()?;
         self.turn = (self.turn + 1) % self.polls.len();
         Some(ask)

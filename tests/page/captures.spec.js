@@ -48,24 +48,28 @@ const drop = (page, words, name) =>
     { words, name },
   );
 
-test('a large recording opens with progress, and the page stays awake', async ({ page }) => {
-  test.setTimeout(120_000);
-  await page.goto('/#/decode');
-  await expect(page.locator('.drop')).toBeVisible();
-  const start = Date.now();
-  const size = await drop(page, 35_000, 'large.vcd');
-  expect(size).toBeGreaterThan(20e6);
-  await expect(at(page, 'progress')).toBeVisible();
-  await expect(at(page, 'progress')).toHaveCount(0, { timeout: 60_000 });
-  const { seen, tasks } = await page.evaluate(() => ({ seen: window.seen.map(Number), tasks: window.tasks }));
-  console.log(`${(size / 1e6).toFixed(0)} MB of VCD: ${Date.now() - start} ms with making them, progress ${seen}, long tasks ${tasks}`);
-  expect(await number(page, 'rows')).toBe(35_000);
-  expect(seen.length).toBeGreaterThan(4);
-  expect(seen).toEqual([...seen].sort((one, two) => one - two));
-  // A few hiccups may be the test machine's; a page that is busy has many.
-  expect(tasks.filter((duration) => duration > 100).length).toBeLessThan(5);
-  await expect(at(page, 'profile')).toContainText('SSI');
-  await expect(page.getByText('clk: by its name')).toBeVisible();
+test.describe('where the machine may have been busy, once more', () => {
+  test.describe.configure({ retries: 1 });
+
+  test('a large recording opens with progress, and the page stays awake', async ({ page }) => {
+    test.setTimeout(120_000);
+    await page.goto('/#/decode');
+    await expect(page.locator('.drop')).toBeVisible();
+    const start = Date.now();
+    const size = await drop(page, 35_000, 'large.vcd');
+    expect(size).toBeGreaterThan(20e6);
+    await expect(at(page, 'progress')).toBeVisible();
+    await expect(at(page, 'progress')).toHaveCount(0, { timeout: 60_000 });
+    const { seen, tasks } = await page.evaluate(() => ({ seen: window.seen.map(Number), tasks: window.tasks }));
+    console.log(`${(size / 1e6).toFixed(0)} MB of VCD: ${Date.now() - start} ms with making them, progress ${seen}, long tasks ${tasks}`);
+    expect(await number(page, 'rows')).toBe(35_000);
+    expect(seen.length).toBeGreaterThan(4);
+    expect(seen).toEqual([...seen].sort((one, two) => one - two));
+    // One hiccup may be the test machine's; a page that is busy has many.
+    expect(tasks.filter((duration) => duration > 100).length).toBeLessThan(2);
+    await expect(at(page, 'profile')).toContainText('SSI');
+    await expect(page.getByText('clk: by its name')).toBeVisible();
+  });
 });
 
 test('reading a recording can be stopped, what has come is framed, and other input is read then', async ({ page }) => {

@@ -374,87 +374,91 @@ test('a link with a wrong profile says so, and its frames are there', async ({ p
   await expect(page.getByRole('alert').first()).toContainText('angle-bits: 99');
 });
 
-test('100 MB open with progress, the page stays awake, and reading can be stopped', async ({ page }) => {
-  test.setTimeout(240_000);
-  await page.goto('/#/decode?format=t485');
-  await expect(page.locator('.drop')).toBeVisible();
-  await page.evaluate(() => {
-    window.tasks = [];
-    new PerformanceObserver((list) => window.tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({
-      type: 'longtask',
+test.describe('where the machine may have been busy, once more', () => {
+  test.describe.configure({ retries: 1 });
+
+  test('100 MB open with progress, the page stays awake, and reading can be stopped', async ({ page }) => {
+    test.setTimeout(240_000);
+    await page.goto('/#/decode?format=t485');
+    await expect(page.locator('.drop')).toBeVisible();
+    await page.evaluate(() => {
+      window.tasks = [];
+      new PerformanceObserver((list) => window.tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({
+        type: 'longtask',
+      });
     });
-  });
-  // The file is made in the page, where it is a file like any other.
-  const times = await page.evaluate(
-    async (line) => {
+    // The file is made in the page, where it is a file like any other.
+    const times = await page.evaluate(
+      async (line) => {
+        const piece = `${line}\n`.repeat(40_000);
+        const parts = Array.from({ length: Math.ceil(100e6 / piece.length) }, () => piece);
+        const file = new File(parts, 'long.txt', { type: 'text/plain' });
+        const data = new DataTransfer();
+        data.items.add(file);
+        // Making the file was work of the test, not of the page.
+        await new Promise((resolve) => setTimeout(resolve, 500));
+        window.tasks.length = 0;
+        const start = performance.now();
+        const drop = new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true });
+        document.querySelector('.drop').dispatchEvent(drop);
+        const seen = (test) =>
+          new Promise((resolve) => {
+            const look = () => (test() ? resolve(performance.now() - start) : requestAnimationFrame(look));
+            look();
+          });
+        const rows = await seen(() => document.querySelector('[data-testid=dump-row]'));
+        const progress = await seen(() => document.querySelector('[data-testid=progress]'));
+        const done = await seen(() => !document.querySelector('[data-testid=progress]'));
+        const count = document.querySelector('[data-testid=rows]').dataset.value;
+        return { size: file.size, rows, progress, done, count: Number(count), long: window.tasks };
+      },
+      good,
+    );
+    console.log(`100 MB: ${JSON.stringify(times)}`);
+    expect(times.size).toBeGreaterThan(100e6);
+    expect(times.count).toBe(times.size / (good.length + 1));
+    expect(times.rows).toBeLessThan(1_000);
+    // One hiccup may be the test machine's; a page that is busy has many.
+    expect(times.long.filter((duration) => duration > 100).length).toBeLessThan(2);
+
+    // Scrolling through millions of rows, with the wheel and with the bar: there are always some.
+    const empty = await page.evaluate(async () => {
+      const table = document.querySelector('[data-testid=rows]');
+      let blank = 0;
+      for (let frame = 0; frame < 60; frame += 1) {
+        table.scrollTop += 400;
+        await new Promise(requestAnimationFrame);
+        blank += document.querySelector('[data-testid=dump-row]') ? 0 : 1;
+      }
+      table.scrollTop = 0;
+      return blank;
+    });
+    expect(empty).toBe(0);
+    await expect(at(page, 'dump-row').first()).toHaveAttribute('data-row', '0');
+    const table = at(page, 'rows');
+    await table.hover();
+    await page.mouse.wheel(0, 300);
+    await expect(at(page, 'dump-row').first()).toHaveAttribute('data-row', '10');
+    await table.evaluate((element) => {
+      element.scrollTop = element.scrollHeight;
+    });
+    await expect(page.locator(`[data-row="${times.count - 1}"]`)).toBeVisible();
+    await page.locator('[data-testid=sort][data-value=start]').click();
+    await page.locator('[data-testid=sort][data-value=start]').click();
+    await expect(at(page, 'dump-row').first()).toHaveAttribute('data-row', String(times.count - 1), { timeout: 60_000 });
+
+    // Once more, and stopped half way: what has been read stays.
+    await page.evaluate((line) => {
       const piece = `${line}\n`.repeat(40_000);
-      const parts = Array.from({ length: Math.ceil(100e6 / piece.length) }, () => piece);
-      const file = new File(parts, 'long.txt', { type: 'text/plain' });
       const data = new DataTransfer();
-      data.items.add(file);
-      // Making the file was work of the test, not of the page.
-      await new Promise((resolve) => setTimeout(resolve, 500));
-      window.tasks.length = 0;
-      const start = performance.now();
-      const drop = new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true });
-      document.querySelector('.drop').dispatchEvent(drop);
-      const seen = (test) =>
-        new Promise((resolve) => {
-          const look = () => (test() ? resolve(performance.now() - start) : requestAnimationFrame(look));
-          look();
-        });
-      const rows = await seen(() => document.querySelector('[data-testid=dump-row]'));
-      const progress = await seen(() => document.querySelector('[data-testid=progress]'));
-      const done = await seen(() => !document.querySelector('[data-testid=progress]'));
-      const count = document.querySelector('[data-testid=rows]').dataset.value;
-      return { size: file.size, rows, progress, done, count: Number(count), long: window.tasks };
-    },
-    good,
-  );
-  console.log(`100 MB: ${JSON.stringify(times)}`);
-  expect(times.size).toBeGreaterThan(100e6);
-  expect(times.count).toBe(times.size / (good.length + 1));
-  expect(times.rows).toBeLessThan(1_000);
-  // A few hiccups may be the test machine's; a page that is busy has many.
-  expect(times.long.filter((duration) => duration > 100).length).toBeLessThan(5);
-
-  // Scrolling through millions of rows, with the wheel and with the bar: there are always some.
-  const empty = await page.evaluate(async () => {
-    const table = document.querySelector('[data-testid=rows]');
-    let blank = 0;
-    for (let frame = 0; frame < 60; frame += 1) {
-      table.scrollTop += 400;
-      await new Promise(requestAnimationFrame);
-      blank += document.querySelector('[data-testid=dump-row]') ? 0 : 1;
-    }
-    table.scrollTop = 0;
-    return blank;
+      data.items.add(new File(Array.from({ length: 75 }, () => piece), 'again.txt'));
+      document.querySelector('.drop').dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    }, good);
+    await at(page, 'cancel').click();
+    await expect(at(page, 'progress')).toHaveCount(0);
+    await expect(at(page, 'dump-row').first()).toBeVisible();
+    expect(await number(page, 'rows')).toBeLessThan(times.count);
   });
-  expect(empty).toBe(0);
-  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-row', '0');
-  const table = at(page, 'rows');
-  await table.hover();
-  await page.mouse.wheel(0, 300);
-  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-row', '10');
-  await table.evaluate((element) => {
-    element.scrollTop = element.scrollHeight;
-  });
-  await expect(page.locator(`[data-row="${times.count - 1}"]`)).toBeVisible();
-  await page.locator('[data-testid=sort][data-value=start]').click();
-  await page.locator('[data-testid=sort][data-value=start]').click();
-  await expect(at(page, 'dump-row').first()).toHaveAttribute('data-row', String(times.count - 1), { timeout: 60_000 });
-
-  // Once more, and stopped half way: what has been read stays.
-  await page.evaluate((line) => {
-    const piece = `${line}\n`.repeat(40_000);
-    const data = new DataTransfer();
-    data.items.add(new File(Array.from({ length: 75 }, () => piece), 'again.txt'));
-    document.querySelector('.drop').dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
-  }, good);
-  await at(page, 'cancel').click();
-  await expect(at(page, 'progress')).toHaveCount(0);
-  await expect(at(page, 'dump-row').first()).toBeVisible();
-  expect(await number(page, 'rows')).toBeLessThan(times.count);
 });
 
 test('typing stays fluid, noise is no harm, and an empty box is empty', async ({ page }) => {

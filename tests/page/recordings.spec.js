@@ -373,6 +373,8 @@ test('a support file shows the page that it was made of, and carries no names', 
   const after = await counts(other);
   expect(after['frames-ok']).toBe(before['frames-ok']);
   await until(other, 'angle', (angle) => angle === 2 ** 22);
+  // It is held where it begins.
+  await expect(at(other, 'replay-play')).toHaveText('Play');
   await at(other, 'replay-play').click();
   await play(other, 'at once');
   await ended(other);

@@ -79,7 +79,7 @@ test('soak @serial', async ({ page, browser }) => {
   };
   await spy(page);
   await hideable(page);
-  const sum = { legs: 0, acts: 0, settings: 0, bytes: 0, good: 0, whole: 0, damaged: 0, passing: 0, wrong: 0 };
+  const sum = { legs: 0, acts: 0, settings: 0, tried: 0, bytes: 0, good: 0, whole: 0, damaged: 0, passing: 0, wrong: 0 };
   const samples = [];
   const begun = Date.now();
   const elapsed = () => (Date.now() - begun) / 1_000;
@@ -109,6 +109,7 @@ test('soak @serial', async ({ page, browser }) => {
       sum.acts += 1;
     }
     if (SETTINGS[name] && draw() < 0.5) {
+      sum.tried += 1;
       sum.settings += Number(await set(trial));
     }
     const { good, whole, wrong, damaged, passing, all } = await trial.end();
@@ -141,6 +142,7 @@ test('soak @serial', async ({ page, browser }) => {
   ];
   console.log(lines.join('\n'));
   records.keep('soak', { soak: lines });
+  expect(sum.settings, 'settings that were made').toBeGreaterThanOrEqual(sum.tried / 2);
   expect(rises.heap, 'growth of the heap').toBeLessThan(GROWTH);
   expect(rises.resident, 'growth of the renderer').toBeLessThan(GROWTH);
 });

@@ -1,7 +1,9 @@
 //! What a reply is worth: whether it is certain, where it stands beside an echo, and what is done
 //! where none comes.
 
-use super::{AGREE, Echo, LISTEN_EVERY, LISTEN_TIMES, Micros, Output, QUIET, Session, State};
+use super::{
+    AGREE, Echo, LISTEN_EVERY, LISTEN_TIMES, Micros, Output, QUIET, Session, State, TRIES,
+};
 use crate::framing::Why;
 
 impl Session {
@@ -22,6 +24,7 @@ impl Session {
     pub(super) fn accept(&mut self, now: Micros, sent: Micros, offset: usize) {
         self.emit(now, sent, offset, Some(offset));
         self.patience.answered(now - sent);
+        self.end_try(true);
         let mut next = self.next_request(now, sent);
         if now > self.listened + LISTEN_EVERY {
             self.listened = now;
@@ -34,7 +37,6 @@ impl Session {
     pub(super) fn judge(&mut self, now: Micros, sent: Micros) {
         let have = self.received.len();
         let front = self.asked.bytes.len();
-        let tries = core::mem::take(&mut self.tries);
         let echoed = self.received.starts_with(&self.asked.bytes);
         let plain = self.holds_at(0);
         let behind = echoed && self.holds_at(front);
@@ -55,7 +57,7 @@ impl Session {
                 });
                 return self.accept(now, sent, offset);
             }
-            self.again(tries);
+            self.end_try(false);
             // It may answer an earlier request, or belong to a talk that nobody asked for.
             let quiet = if self.may_be_late() {
                 self.patience.time()
@@ -68,7 +70,7 @@ impl Session {
             return;
         }
         let only_echo = echoed && have == front;
-        self.again(tries);
+        self.end_try(false);
         if have == 0 || only_echo {
             let bytes = core::mem::take(&mut self.received);
             self.skip(&bytes, Why::Request);
@@ -97,10 +99,11 @@ impl Session {
         self.state = State::Draining(now + QUIET);
     }
 
-    /// What is asked once has no certain reply.
-    fn again(&mut self, tries: u8) {
-        if tries > 0 {
-            self.once.push_front((self.asked.clone(), tries));
+    /// What is asked once is done with when its reply is certain, or when it was asked often enough.
+    fn end_try(&mut self, certain: bool) {
+        if self.tries == TRIES || certain && self.tries > 0 {
+            self.once.pop_front();
+            self.tries = 0;
         }
     }
 
