@@ -131,7 +131,11 @@ impl<T: Display> Display for Number<T> {
         match spoken() {
             Some(catalogue) => {
                 let mark = catalogue.get(MARK).unwrap_or(MARK);
-                f.write_str(&self.0.to_string().replace(MARK, mark))
+                let text = self.0.to_string();
+                text.split_inclusive('.').try_for_each(|part| match part.strip_suffix('.') {
+                    Some(part) => f.write_str(part).and_then(|()| f.write_str(mark)),
+                    None => f.write_str(part),
+                })
             }
             None => self.0.fmt(f),
         }
@@ -158,10 +162,8 @@ pub fn fill(out: &mut dyn Write, english: &'static str, values: &[&dyn Display])
             Some((index, forms)) => (index, Some(forms)),
             None => (place, None),
         };
-        let index = index.parse().unwrap_or_else(|_| {
-            next += 1;
-            next - 1
-        });
+        let index = index.bytes().next().map_or(next, |digit| usize::from(digit.wrapping_sub(b'0')));
+        next += usize::from(place.is_empty());
         let Some(value) = values.get(index) else {
             continue;
         };

@@ -116,9 +116,8 @@ fn counts(degrees: f64, angle_bits: u32) -> Result<u64, Refusal> {
     if !(0.0..360.0).contains(&degrees) {
         return Err(Refusal::Turn);
     }
-    let codes = bits::codes(angle_bits);
-    let nearest = (degrees / 360.0 * codes as f64 + 0.5) as u128;
-    Ok((nearest % codes) as u64)
+    let nearest = (degrees / 360.0 * bits::power(angle_bits) + 0.5) as u128;
+    Ok(nearest as u64 & bits::mask(angle_bits as usize))
 }
 
 fn rounded(number: f64) -> i128 {

@@ -18,6 +18,10 @@ use encoderscope::{
 use std::cell::Cell;
 use wasm_bindgen::prelude::*;
 
+// Half the size of the one that comes with Rust.
+#[global_allocator]
+static ALLOCATOR: talc::wasm::WasmDynamicTalc = talc::wasm::new_wasm_dynamic_allocator();
+
 /// What stands between names and values of attributes.
 const BREAK: char = '\0';
 
