@@ -217,7 +217,8 @@ impl Resolved {
 pub fn degrees_text(angle: u64, angle_bits: u32, places: u32) -> String {
     let unit = 10u64.pow(places.min(12));
     // Less than 360 × 10¹², which leaves room.
-    let scaled = (u128::from(angle) * 360 * u128::from(unit) >> angle_bits.min(64)) as u64;
+    let scaled = u128::from(angle) * 360 * u128::from(unit);
+    let scaled = (scaled >> angle_bits.min(64)) as u64;
     let (whole, part) = (scaled / unit, scaled % unit);
     match places.min(12) as usize {
         0 => whole.to_string(),

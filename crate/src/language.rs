@@ -132,10 +132,11 @@ impl<T: Display> Display for Number<T> {
             Some(catalogue) => {
                 let mark = catalogue.get(MARK).unwrap_or(MARK);
                 let text = self.0.to_string();
-                text.split_inclusive('.').try_for_each(|part| match part.strip_suffix('.') {
-                    Some(part) => f.write_str(part).and_then(|()| f.write_str(mark)),
-                    None => f.write_str(part),
-                })
+                text.split_inclusive('.')
+                    .try_for_each(|part| match part.strip_suffix('.') {
+                        Some(part) => f.write_str(part).and_then(|()| f.write_str(mark)),
+                        None => f.write_str(part),
+                    })
             }
             None => self.0.fmt(f),
         }
@@ -162,7 +163,10 @@ pub fn fill(out: &mut dyn Write, english: &'static str, values: &[&dyn Display])
             Some((index, forms)) => (index, Some(forms)),
             None => (place, None),
         };
-        let index = index.bytes().next().map_or(next, |digit| usize::from(digit.wrapping_sub(b'0')));
+        let index = index
+            .bytes()
+            .next()
+            .map_or(next, |digit| usize::from(digit.wrapping_sub(b'0')));
         next += usize::from(place.is_empty());
         let Some(value) = values.get(index) else {
             continue;

@@ -13,6 +13,8 @@ const seed = Number(process.env.SOAK_SEED ?? Date.now() % 2 ** 31);
 const ACTS = 4;
 /** So much may what the page holds grow over the second half, which is what is left of the noise. */
 const GROWTH = 0.1;
+/** So many times as busy may its main thread be in the last quarter as in the first. */
+const BUSIER = 1.5;
 
 /** Numbers from 0 to 1, the same for the same seed (mulberry32). */
 const chances = (state) => () => {
@@ -22,13 +24,15 @@ const chances = (state) => () => {
   return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
 };
 
+const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
+
 /** How much a line through the values rises from their first to their last, to their mean. */
 const rise = (values) => {
   const middle = (values.length - 1) / 2;
-  const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
-  const product = values.reduce((sum, value, index) => sum + (index - middle) * (value - mean), 0);
+  const average = mean(values);
+  const product = values.reduce((sum, value, index) => sum + (index - middle) * (value - average), 0);
   const square = values.reduce((sum, _, index) => sum + (index - middle) ** 2, 0);
-  return ((product / square) * (values.length - 1)) / mean;
+  return ((product / square) * (values.length - 1)) / average;
 };
 
 const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
@@ -127,6 +131,8 @@ test('soak @serial', async ({ page, browser }) => {
   const half = samples.slice(Math.floor(samples.length / 2));
   const rises = { heap: rise(half.map(({ heap }) => heap)), resident: rise(half.map(({ resident }) => resident)) };
   const shares = samples.map(({ processor }) => processor);
+  const quarter = Math.ceil(shares.length / 4);
+  const busier = mean(shares.slice(-quarter)) / mean(shares.slice(0, quarter));
   const range = (values, write) => `${write(Math.min(...values))} to ${write(Math.max(...values))}`;
   const lines = [
     '| | |',
@@ -138,11 +144,12 @@ test('soak @serial', async ({ page, browser }) => {
     `| replies damaged, that pass their check, wrong angles shown | ${sum.damaged}, ${sum.passing}, ${sum.wrong} |`,
     `| JavaScript heap of the page | ${range(samples.map(({ heap }) => heap), megabytes)} MB; over the second half ${percent(rises.heap)} |`,
     `| memory of the renderer: page, worker and WASM | ${range(samples.map(({ resident }) => resident), megabytes)} MB; over the second half ${percent(rises.resident)} |`,
-    `| main thread | ${range(shares, percent)} of a processor |`,
+    `| main thread | ${range(shares, percent)} of a processor; in the last quarter ${busier.toFixed(2)} times as much as in the first |`,
   ];
   console.log(lines.join('\n'));
   records.keep('soak', { soak: lines });
   expect(sum.settings, 'settings that were made').toBeGreaterThanOrEqual(sum.tried / 2);
   expect(rises.heap, 'growth of the heap').toBeLessThan(GROWTH);
   expect(rises.resident, 'growth of the renderer').toBeLessThan(GROWTH);
+  expect(busier, 'main thread').toBeLessThan(BUSIER);
 });

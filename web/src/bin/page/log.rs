@@ -56,9 +56,10 @@ pub(crate) fn Frames() -> impl IntoView {
         app.profile.track();
         view.go_on();
     });
-    let log = Memo::new(move |_| {
+    let (log, set_log) = signal(Vec::new());
+    Effect::new(move || {
         let held = view.held.get();
-        held.unwrap_or_else(|| app.snapshot.with(|snapshot| snapshot.log.clone()))
+        set_log.set(held.unwrap_or_else(|| app.snapshot.with(|snapshot| snapshot.log.clone())));
     });
     let choose = move |index: usize| {
         // A row that runs away cannot be looked at.
@@ -95,25 +96,28 @@ pub(crate) fn Frames() -> impl IntoView {
     }
 }
 
-/// A row, made anew only when its shape changes; what is in it follows the log.
+/// A row, whose cells follow the log.
+///
+/// They are not made anew with what they show: what an effect has read keeps a place for it for
+/// ever, even when its view is gone, and noise changes rows many times a second.
 #[component]
 fn Row(
     index: usize,
-    log: Memo<Vec<Entry>>,
+    log: ReadSignal<Vec<Entry>>,
     chosen: RwSignal<Option<Entry>>,
     choose: impl Fn(usize) + Copy + Send + Sync + 'static,
 ) -> impl IntoView {
-    let shape = Memo::new(move |_| log.with(|log| log.get(index).map(Shape::of)));
-    let time = move || {
-        log.with(|log| {
-            log.get(index)
-                .map(|entry| number(format_args!("{:.4}", entry.time)).to_string())
-        })
+    let exists = Memo::new(move |_| log.with(|log| log.len() > index));
+    let cell = move |show: fn(&Entry) -> String| {
+        move || log.with(|log| log.get(index).map(show).unwrap_or_default())
     };
-    let byte = move |place: usize| {
+    let bytes = move || {
         log.with(|log| {
-            let (byte, _) = log.get(index)?.bytes.get(place)?;
-            Some(format!("{byte:02X}"))
+            let bytes = log.get(index).map_or(&[][..], |entry| &entry.bytes);
+            let bytes = bytes.iter().map(|(byte, class)| {
+                view! { <span class=format!("byte {class}")>{format!("{byte:02X}")}</span> }
+            });
+            bytes.collect_view()
         })
     };
     let is_chosen = move || {
@@ -122,55 +126,43 @@ fn Row(
         };
         log.with(is)
     };
-    move || {
-        let shape = shape.get()?;
-        let classes = shape.classes.into_iter().enumerate();
-        let bytes = classes.map(|(place, class)| {
-            view! { <span class=format!("byte {class}")>{move || byte(place)}</span> }
-        });
-        let verdict = match shape.ok {
-            Some(true) => ("verdict good", "✓".to_owned()),
-            Some(false) => ("verdict bad", t(&shape.text).to_owned()),
-            None => ("verdict", t(&shape.text).to_owned()),
-        };
-        let (direction, arrow) = if shape.sent {
-            (msg("sent"), "→")
-        } else {
-            (msg("received"), "←")
-        };
-        Some(view! {
+    let ok = move || log.with(|log| Some(log.get(index)?.ok?.to_string()));
+    let row = move || {
+        view! {
             <tr
                 class:chosen=is_chosen
                 data-testid="frame-row"
-                data-direction=direction
-                data-ok=shape.ok.map(|ok| ok.to_string())
+                data-direction=cell(|entry| direction(entry).to_owned())
+                data-ok=ok
                 on:click=move |_| choose(index)
             >
-                <td class="time"><button class="quiet" title=t("Explain these bytes")>{time}</button></td>
-                <td title=t(direction)>{arrow}</td>
-                <td class="bytes">{bytes.collect_view()}</td>
-                <td class=verdict.0>{verdict.1}</td>
+                <td class="time">
+                    <button class="quiet" title=t("Explain these bytes")>
+                        {cell(|entry| number(format_args!("{:.4}", entry.time)).to_string())}
+                    </button>
+                </td>
+                <td title=cell(|entry| t(direction(entry)).to_owned())>{cell(|entry| if entry.sent { "→" } else { "←" }.into())}</td>
+                <td class="bytes">{bytes}</td>
+                <td class=cell(verdict)>{cell(|entry| if entry.ok == Some(true) { "✓" } else { t(&entry.text) }.to_owned())}</td>
             </tr>
-        })
-    }
-}
-
-/// An entry without its time and its values.
-#[derive(Clone, Debug, PartialEq)]
-struct Shape {
-    sent: bool,
-    ok: Option<bool>,
-    text: String,
-    classes: Vec<String>,
-}
-
-impl Shape {
-    fn of(entry: &Entry) -> Self {
-        Self {
-            sent: entry.sent,
-            ok: entry.ok,
-            text: entry.text.clone(),
-            classes: entry.bytes.iter().map(|(_, class)| class.clone()).collect(),
         }
+    };
+    move || exists.get().then(row)
+}
+
+const fn direction(entry: &Entry) -> &'static str {
+    if entry.sent {
+        msg("sent")
+    } else {
+        msg("received")
     }
+}
+
+fn verdict(entry: &Entry) -> String {
+    match entry.ok {
+        Some(true) => "verdict good",
+        Some(false) => "verdict bad",
+        None => "verdict",
+    }
+    .into()
 }
