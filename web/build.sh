@@ -36,7 +36,7 @@ bind_page() {
   wasm-bindgen --target web --no-typescript --keep-lld-exports --out-dir $new --out-name page $new/page.wasm
   rm $new/page.wasm
   for file in $new/*.wasm; do
-    npx wasm-opt "${features[@]}" -Oz "$file" -o "$file"
+    npx wasm-opt "${features[@]}" --flatten --rereloop -Oz -Oz "$file" -o "$file"
   done
   mv $new $to
 }

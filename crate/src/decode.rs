@@ -160,7 +160,7 @@ impl Decoder {
     pub fn new(profile: Profile) -> Result<Self, ProfileError> {
         profile.check()?;
         let shape = Shape::of(profile);
-        let layouts = (profile.format.spec().layouts)(&profile, shape);
+        let layouts = (profile.format.manual().layouts)(&profile, shape);
         let layouts = match profile.medium() {
             Medium::Bits => layouts,
             Medium::Bytes | Medium::Text => layouts.into_iter().map(Resolved::sieved).collect(),

@@ -1,7 +1,7 @@
 //! The wire formats, one manual page a file.
 //!
-//! To add a format, write its file: a [`Spec`] with its name, parameters and limits, its layout
-//! tables, and an example; then name the file in [`Format`]'s list.
+//! To add a format, write its file: a [`Spec`] with its name, parameters and limits, a [`Manual`]
+//! with its layouts and an example; then name the file in [`Format`]'s list.
 
 pub mod timing;
 
@@ -36,6 +36,15 @@ macro_rules! formats {
                 match self {
                     $(Self::$name => &$module::SPEC,)*
                     Self::$own => &$own_module::SPEC,
+                }
+            }
+
+            /// What its manual says of it.
+            #[must_use]
+            pub const fn manual(self) -> &'static Manual {
+                match self {
+                    $(Self::$name => &$module::MANUAL,)*
+                    Self::$own => &$own_module::MANUAL,
                 }
             }
         }
@@ -109,10 +118,6 @@ pub struct Spec {
     pub name: &'static str,
     /// The name for people.
     pub title: &'static str,
-    /// What it is, in a few words.
-    pub about: &'static str,
-    /// The manual it comes from, and the place in it.
-    pub source: &'static str,
     /// How frames come.
     pub link: Link,
     /// The names of the parameters that matter.
@@ -123,6 +128,18 @@ pub struct Spec {
     pub limits: Limits,
     /// Microseconds from one frame of a stream to the next.
     pub interval: Option<u64>,
+    /// What omitted parameters are: the widest encoder of the manual that speaks the format.
+    pub default: Profile,
+}
+
+/// What a manual says of a format: how its frames are laid out, and what is to be read about them.
+/// It stands apart from the [`Spec`], which every program needs first.
+#[derive(Clone, Copy, Debug)]
+pub struct Manual {
+    /// What it is, in a few words.
+    pub about: &'static str,
+    /// The manual it comes from, and the place in it.
+    pub source: &'static str,
     /// What its manual asks of clock and pause, where a master clocks the frames out.
     pub timing: Option<&'static Timing>,
     /// A dump of a few frames, from public captures and the manual's rules.
@@ -131,8 +148,6 @@ pub struct Spec {
     pub guesses: &'static [Profile],
     /// The layouts of the frames that a profile has.
     pub layouts: fn(&Profile, Shape) -> Vec<Resolved>,
-    /// What omitted parameters are: the widest encoder of the manual that speaks the format.
-    pub default: Profile,
 }
 
 impl Format {
@@ -174,7 +189,7 @@ impl Format {
     /// What its manual asks of clock and pause, where a master clocks the frames out.
     #[must_use]
     pub const fn timing(self) -> Option<&'static Timing> {
-        self.spec().timing
+        self.manual().timing
     }
 
     /// The names of the parameters that matter to this format.

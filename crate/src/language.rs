@@ -53,9 +53,22 @@ impl Catalogue {
         Self::sorted(texts)
     }
 
-    /// A catalogue of pairs that are kept already, sorted by the first.
+    /// A catalogue of texts with NULs between: each is followed by the same in the other language, and
+    /// they are sorted.
+    ///
+    /// ```
+    /// use encoderscope::language::Catalogue;
+    /// let russian = Catalogue::read("angle\0угол\0turns\0обороты".into());
+    /// assert_eq!(russian.get("turns"), Some("обороты"));
+    /// ```
     #[must_use]
-    pub fn sorted(texts: Vec<(&'static str, &'static str)>) -> &'static Self {
+    pub fn read(texts: String) -> &'static Self {
+        let mut texts = Box::leak(texts.into_boxed_str()).split('\0');
+        let pairs = core::iter::from_fn(|| Some((texts.next()?, texts.next()?)));
+        Self::sorted(pairs.collect())
+    }
+
+    fn sorted(texts: Vec<(&'static str, &'static str)>) -> &'static Self {
         Box::leak(Box::new(Self { texts }))
     }
 

@@ -137,7 +137,7 @@ impl Profile {
     #[must_use]
     pub fn source(&self) -> &'static str {
         let source = self.own.and_then(Own::source);
-        source.unwrap_or(self.format.spec().source)
+        source.unwrap_or(self.format.manual().source)
     }
 
     /// How frames come.

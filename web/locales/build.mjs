@@ -120,7 +120,9 @@ for (const language of LANGUAGES) {
   }
   for (const [text, file] of missing) faults.push(`${file}: ${JSON.stringify(text)} is not in ${language}`);
   await mkdir(`${top}web/pkg`, { recursive: true });
-  await writeFile(`${top}web/pkg/${language}.json`, JSON.stringify(Object.fromEntries(known)));
+  // Texts are looked for by halves (crate/src/language.rs).
+  const sorted = [...known].sort(([one], [other]) => Buffer.compare(Buffer.from(one), Buffer.from(other)));
+  await writeFile(`${top}web/pkg/${language}.json`, JSON.stringify(sorted));
 }
 for (const fault of faults) console.error(fault);
 if (faults.length) console.error(`${faults.length} texts are not right.`);

@@ -88,7 +88,11 @@ pub(super) fn of(sample: &Sample) -> Vec<Profile> {
         }
     }
     shipped(sample, &mut all);
-    all.extend(Format::ALL.iter().flat_map(|format| format.spec().guesses));
+    all.extend(
+        Format::ALL
+            .iter()
+            .flat_map(|format| format.manual().guesses),
+    );
     all.retain(|profile| profile.check().is_ok());
     all
 }

@@ -21,7 +21,7 @@ pub(crate) use draft::LONGEST_NAME;
 pub use draft::{CrcRule, Draft, Framing, Kind, MOST_FIELDS, Written};
 pub use shipped::{SHIPPED, Shipped};
 
-use super::{spared, Format, Limits, Link, Spec, biss_c, said, ssi};
+use super::{spared, Format, Limits, Manual, Link, Spec, biss_c, said, ssi};
 use crate::{
     check::{Algorithm, Checksum, OwnCrc},
     language::msg,
@@ -48,8 +48,6 @@ pub(super) const INTERVAL: u64 = 1_000;
 pub const SPEC: Spec = Spec {
     name: "own",
     title: msg("own layout"),
-    about: said("a layout that comes with the program, or that a user wrote"),
-    source: said("the user"),
     link: Link::Clocked,
     parameters: &["layout", "turns-code", "justify", "baud"],
     quantities: &[],
@@ -60,10 +58,6 @@ pub const SPEC: Spec = Spec {
         frame: (0, 0),
     },
     interval: Some(INTERVAL),
-    timing: None,
-    example: spared("00 03 08 f6 43 eb\n"),
-    guesses: &[],
-    layouts: |profile, shape| profile.own.into_iter().map(|own| Resolved::new(own.layout(), shape)).collect(),
     default: Profile {
         angle_bits: 1,
         turns_bits: 0,
@@ -71,6 +65,16 @@ pub const SPEC: Spec = Spec {
         baud: 115_200,
         ..Profile::base(Format::Own)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("a layout that comes with the program, or that a user wrote"),
+    source: said("the user"),
+    timing: None,
+    example: spared("00 03 08 f6 43 eb\n"),
+    guesses: &[],
+    layouts: |profile, shape| profile.own.into_iter().map(|own| Resolved::new(own.layout(), shape)).collect(),
 };
 
 /// A layout of the user's own. There is one of each text, for as long as the program runs.

@@ -20,7 +20,7 @@
 //! Where the manuals mislead: MPP's row calls b5…b0 "1 bit", there are six; the row "t_CL 400
 //! ns…14 µs" is the clock's period and contradicts the row of frequencies, which is right.
 
-use super::{spared, one, Format, HEALTH, Limits, Link, Spec, said,
+use super::{spared, one, Format, HEALTH, Limits, Manual, Link, Spec, said,
     timing::{Beyond, MICROSECOND, NANOSECOND, Positions, Timing, Words},
 };
 use crate::{
@@ -35,8 +35,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi",
     title: "SSI",
-    about: said("a clocked word of MPP and PT encoders, without any check"),
-    source: said("MPP and PT, SSI"),
     link: Link::Clocked,
     parameters: &["angle-bits", "turns-bits", "turns-code", "justify"],
     quantities: &[],
@@ -47,11 +45,17 @@ pub const SPEC: Spec = Spec {
         frame: (0, 0),
     },
     interval: None,
+    default: Profile::base(Format::Ssi),
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("a clocked word of MPP and PT encoders, without any check"),
+    source: said("MPP and PT, SSI"),
     timing: Some(&TIMING),
     example: spared("00 05 12 34 56 00\n00 05 12 a0 01 00\nff fe 13 00 00 60\n"),
     guesses: &[],
     layouts: |_, shape| one(&WORD, shape),
-    default: Profile::base(Format::Ssi),
 };
 
 /// Clock and pause (MPP and PT, "SSI", timing parameters and note 1).

@@ -20,7 +20,7 @@
 //! T_mu and T_mi are one time, 20 ± 1 µs after the last falling edge. In the gap between words
 //! the data line carries the error flag.
 
-use super::{spared, one, Format, Limits, Link, Spec, said,
+use super::{spared, one, Format, Limits, Manual, Link, Spec, said,
     ssi::{AFTER, BEFORE},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
@@ -35,8 +35,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi7",
     title: "SSI7",
-    about: said("the clocked word of the IP-75 inductosyn"),
-    source: said("IP-75, 5.4.1"),
     link: Link::Clocked,
     parameters: &["angle-bits", "frame-bits", "justify"],
     quantities: &["parity"],
@@ -47,16 +45,22 @@ pub const SPEC: Spec = Spec {
         frame: (POSITION + 2, 30),
     },
     interval: None,
-    timing: Some(&TIMING),
-    example: spared("000000000000000000000000000110\n000000000000001000000000000011\n"),
-    guesses: &[],
-    layouts: |_, shape| one(&WORD, shape),
     default: Profile {
         angle_bits: 14,
         turns_bits: 0,
         frame_bits: 30,
         ..Profile::base(Format::Ssi7)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the clocked word of the IP-75 inductosyn"),
+    source: said("IP-75, 5.4.1"),
+    timing: Some(&TIMING),
+    example: spared("000000000000000000000000000110\n000000000000001000000000000011\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&WORD, shape),
 };
 
 /// Clock and pause (IP-75, 5.4.1, figure 8 and its notes).

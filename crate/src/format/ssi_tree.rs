@@ -22,7 +22,7 @@
 //! Where the article misleads: 16 bits are 65 536 values, not 32 688; the rows of table 1 have
 //! 25 and 26 columns, so the word length and the place of the parity are parameters.
 
-use super::{spared, one, Format, Limits, Link, Spec, said,
+use super::{spared, one, Format, Limits, Manual, Link, Spec, said,
     ssi::{AFTER, BEFORE, with_spare},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
@@ -39,8 +39,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi-tree",
     title: msg("SSI fir-tree"),
-    about: said("the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others"),
-    source: said("P+F article, tables 1 and 4"),
     link: Link::Clocked,
     parameters: &[
         "angle-bits",
@@ -60,10 +58,6 @@ pub const SPEC: Spec = Spec {
         frame: (2, 64),
     },
     interval: None,
-    timing: Some(&TIMING),
-    example: spared("1010010100101001000100011\n0110001111111011110001000\n"),
-    guesses: &[],
-    layouts: |_, shape| one(&WORD, shape),
     default: Profile {
         angle_bits: 13,
         turns_bits: 12,
@@ -72,6 +66,16 @@ pub const SPEC: Spec = Spec {
         frame_bits: 25,
         ..Profile::base(Format::SsiTree)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others"),
+    source: said("P+F article, tables 1 and 4"),
+    timing: Some(&TIMING),
+    example: spared("1010010100101001000100011\n0110001111111011110001000\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&WORD, shape),
 };
 
 /// Clock and pause (P+F article, figure 2; table 6, "0.1…1.5 Mbit/s").

@@ -20,7 +20,7 @@
 //! Where the manuals mislead: the data is right-aligned, not left-aligned (note 1); the CRC is
 //! x⁸+1, not x+1 (note 2); the "17" of byte 5 is the ENID, 0x17 or 0x11, and is never required.
 
-use super::{Format, Limits, Link, Spec, said, spared};
+use super::{Format, Limits, Manual, Link, Spec, said, spared};
 use crate::{
     bits::{self, Bits},
     check::Checksum,
@@ -33,8 +33,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "t485",
     title: "T485",
-    about: said("the Tamagawa-compatible protocol of MPP and PT encoders"),
-    source: said("MPP and PT, T485"),
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "dialect", "baud"],
     quantities: &["parity", "operation", "enid", "alarm"],
@@ -45,14 +43,20 @@ pub const SPEC: Spec = Spec {
         frame: (0, 0),
     },
     interval: None,
-    timing: None,
-    example: spared("1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"),
-    guesses: &[],
-    layouts: |_, shape| Request::ALL.iter().map(|request| Resolved::new(request.reply(), shape)).collect(),
     default: Profile {
         angle_bits: 23,
         ..Profile::base(Format::T485)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the Tamagawa-compatible protocol of MPP and PT encoders"),
+    source: said("MPP and PT, T485"),
+    timing: None,
+    example: spared("1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"),
+    guesses: &[],
+    layouts: |_, shape| Request::ALL.iter().map(|request| Resolved::new(request.reply(), shape)).collect(),
 };
 
 /// Bytes of Tamagawa's EEPROM.

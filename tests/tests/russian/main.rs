@@ -117,7 +117,7 @@ fn missing(russian: &Catalogue) -> BTreeSet<String> {
         }
     }
     for format in Format::ALL {
-        texts.insert(format.spec().about.to_owned());
+        texts.insert(format.manual().about.to_owned());
         if let Some(timing) = format.timing() {
             let said = [timing.source, timing.timeout_text, timing.pause_text];
             texts.extend(said.map(ToOwned::to_owned));

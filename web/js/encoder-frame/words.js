@@ -10,9 +10,9 @@ const isRussian = (lang) => /^ru\b/i.test(lang);
 
 async function load() {
   try {
-    texts = await (await fetch(ru)).json();
-    const names = Object.keys(texts).sort();
-    learn(names.flatMap((name) => [name, texts[name]]).join('\0'));
+    const pairs = await (await fetch(ru)).json();
+    learn(pairs.flat().join('\0'));
+    texts = Object.fromEntries(pairs);
   } catch {
     texts = {};
   }

@@ -29,13 +29,10 @@ thread_local! {
     static LEARNT: Cell<Option<&'static Catalogue>> = const { Cell::new(None) };
 }
 
-/// Learns what is said in another language: English texts, which are sorted, and the others take
-/// turns, with a NUL between.
+/// Learns what is said in another language ([`Catalogue::read`]).
 #[wasm_bindgen]
 pub fn learn(texts: String) {
-    let mut texts = Box::leak(texts.into_boxed_str()).split(BREAK);
-    let pairs = core::iter::from_fn(|| Some((texts.next()?, texts.next()?)));
-    LEARNT.set(Some(Catalogue::sorted(pairs.collect())));
+    LEARNT.set(Some(Catalogue::read(texts)));
 }
 
 /// Speaks the language that has been learnt from now on, or English again.

@@ -8,7 +8,6 @@ use crate::{
     parts::{self, coming, later},
     plot::Feed,
     ports::Obstacle,
-    theme::ThemeSwitch,
 };
 use encoderscope::{
     format::Format,
@@ -23,7 +22,7 @@ use encoderscope_web::{
 };
 use js_sys::Array;
 use leptos::{ev, prelude::*};
-use std::time::Duration;
+use std::{any::Any, time::Duration};
 use wasm_bindgen::JsValue;
 
 /// What the dial shows.
@@ -118,6 +117,8 @@ pub(crate) struct App {
     pub(crate) recording: RwSignal<bool>,
     /// The language of it all.
     pub(crate) spoken: Spoken,
+    /// All of them are gone with this.
+    views: StoredValue<Option<Box<dyn Any>>, LocalStorage>,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
@@ -151,6 +152,7 @@ impl App {
             just_plugged: RwSignal::new(false),
             recording: RwSignal::new(false),
             spoken,
+            views: StoredValue::new_local(None),
             connection: StoredValue::new_local(connection),
         }
     }
@@ -387,22 +389,18 @@ impl App {
     }
 }
 
-/// The whole page.
-pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
+/// Starts the page.
+pub(crate) fn start(workers: Workers) {
     let app = App::new(workers);
     provide_context(app);
     let bare = Fragment::parse(&location_hash()).parameters.is_empty();
     app.follow_link(&location_hash());
     // The address bar may have been brought up to date since the link was followed.
-    let hash = window_event_listener(ev::hashchange, move |event| {
+    window_event_listener(ev::hashchange, move |event| {
         let address = event.new_url();
         app.follow_link(address.find('#').map_or("", |at| &address[at..]));
     });
-    let hide = window_event_listener_untyped("pagehide", move |_| app.disconnect());
-    on_cleanup(move || {
-        hash.remove();
-        hide.remove();
-    });
+    window_event_listener_untyped("pagehide", move |_| app.disconnect());
     Effect::new(move || {
         if let (Some(fragment), Ok(history)) = (app.fragment(), window().history()) {
             // Where it fails the link in the address bar is only out of date.
@@ -413,10 +411,19 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
     let owner = app.owner.get_value();
     after_picture(move || owner.with(|| app.begin(bare)));
 
-    // Another language makes all views anew; what runs goes on.
-    move || {
-        app.spoken.language.track();
-        shell(app)
+    app.show();
+}
+
+impl App {
+    /// Makes all views, in place of those in another language; what runs goes on.
+    pub(crate) fn show(self) {
+        self.views.set_value(None);
+        let Some(body) = document().body() else {
+            return;
+        };
+        let owner = self.owner.get_value();
+        let views = owner.with(|| mount_to(body, move || shell(self)));
+        self.views.set_value(Some(Box::new(views)));
     }
 }
 
@@ -450,7 +457,8 @@ fn shell(app: App) -> impl IntoView + use<> {
                 {move || summary(&app.profile.get())}
             </span>
             <LanguageSwitch />
-            <ThemeSwitch />
+            // `web/js/main.js` turns the theme, which it sets before the page is drawn.
+            <button class="theme" aria-label=t("Light or dark") title=t("Light or dark")>"◐"</button>
         </header>
         <main>
             {move || {

@@ -4,7 +4,8 @@ use crate::{Workers, app::App};
 use encoderscope::language::t;
 use encoderscope_web::language;
 use leptos::prelude::*;
-use wasm_bindgen::JsValue;
+use std::cell::Cell;
+use wasm_bindgen::prelude::*;
 
 /// A language of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +42,7 @@ impl Language {
 /// The language that is spoken, with its texts.
 #[derive(Clone, Copy)]
 pub(crate) struct Spoken {
-    /// What views are made for; all are made anew when it changes.
+    /// What views are made for.
     pub(crate) language: RwSignal<Language>,
     /// What workers are told.
     pub(crate) texts: StoredValue<JsValue, LocalStorage>,
@@ -69,46 +70,44 @@ fn name_on_page(language: Language) {
     }
 }
 
-impl App {
-    /// Speaks another language, once its texts are there.
-    fn choose(self, language: Language) {
-        leptos::task::spawn_local(async move {
-            let workers = self.workers.get_value();
-            let Ok(texts) = workers.speak(language.code()).await else {
-                let why = t("This language cannot be loaded without the network.");
-                return self.link_fault.set(Some(why.into()));
-            };
-            language::speak(&texts);
-            name_on_page(language);
-            self.tell(&texts);
-            self.spoken.texts.set_value(texts);
-            self.spoken.language.set(language);
-        });
-    }
+thread_local! {
+    static PAGE: Cell<Option<App>> = const { Cell::new(None) };
 }
 
+/// Speaks another language, which has been chosen; what is not English needs its texts.
+#[wasm_bindgen]
+pub fn speak(code: &str, texts: &JsValue) {
+    let language = Language::of_code(code);
+    let Some(app) = PAGE.get() else {
+        return;
+    };
+    if language != Language::English && texts.is_undefined() {
+        let why = t("This language cannot be loaded without the network.");
+        return app.link_fault.set(Some(why.into()));
+    }
+    language::speak(texts);
+    name_on_page(language);
+    app.tell(texts);
+    app.spoken.texts.set_value(texts.clone());
+    app.spoken.language.set(language);
+    app.show();
+}
+
+/// Its buttons choose by their `lang` (`web/js/main.js`).
 #[component]
 pub(crate) fn LanguageSwitch() -> impl IntoView {
     let app = expect_context::<App>();
-    let present = app.spoken.language;
+    PAGE.set(Some(app));
+    let present = app.spoken.language.get_untracked();
+    // Elements made one by one would take the first view twice the room.
     let choices = Language::ALL.map(|language| {
-        let (name, letters) = language.name();
-        view! {
-            <button
-                lang=language.code()
-                title=name
-                aria-label=name
-                aria-pressed=move || (present.get() == language).to_string()
-                data-testid=format!("language-{}", language.code())
-                on:click=move |_| app.choose(language)
-            >
-                {letters}
-            </button>
-        }
+        let (code, (name, letters)) = (language.code(), language.name());
+        let pressed = language == present;
+        format!(
+            r#"<button lang="{code}" title="{name}" aria-label="{name}" aria-pressed="{pressed}" data-testid="language-{code}">{letters}</button>"#
+        )
     });
     view! {
-        <span class="languages" role="group" aria-label=t("Language")>
-            {choices.into_view()}
-        </span>
+        <span class="languages" role="group" aria-label=t("Language") inner_html=choices.concat()></span>
     }
 }

@@ -32,7 +32,6 @@ mod recordings;
 mod reference;
 mod setting;
 mod standstill;
-mod theme;
 mod zero_wire;
 
 use encoderscope_web::browser::Peer;
@@ -51,9 +50,6 @@ extern "C" {
     /// Its texts; undefined for English.
     #[wasm_bindgen(method, getter)]
     fn texts(this: &Workers) -> JsValue;
-    /// Speaks another language, in scripts, in the address and at the next visit; returns its texts.
-    #[wasm_bindgen(method, catch)]
-    async fn speak(this: &Workers, language: &str) -> Result<JsValue, JsValue>;
     /// One that runs the engine.
     #[wasm_bindgen(method, catch)]
     fn engine(this: &Workers) -> Result<Peer, JsValue>;
@@ -74,5 +70,6 @@ extern "C" {
 /// Mounts the page.
 #[wasm_bindgen]
 pub fn start(workers: Workers) {
-    leptos::mount::mount_to_body(move || app::app(workers));
+    // The page itself has no views: they are made anew with the language.
+    leptos::mount::mount_to_body(move || app::start(workers));
 }

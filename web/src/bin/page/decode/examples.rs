@@ -10,16 +10,16 @@ pub(super) fn Examples() -> impl IntoView {
     let show = move |format: Format| {
         let profile = format.default_profile();
         app.change_profile(profile);
-        app.desk().typed(format.spec().example.into(), &profile);
+        app.desk().typed(format.manual().example.into(), &profile);
     };
     let rows = Format::ALL.iter().map(|format| {
-        let spec = format.spec();
-        let first = spec.example.lines().next();
+        let manual = format.manual();
+        let first = manual.example.lines().next();
         view! {
             <li>
-                <button data-testid="example-of" data-value=spec.name on:click=move |_| show(*format)>
-                    <b>{spec.title}</b>
-                    <span>{t(spec.about)}</span>
+                <button data-testid="example-of" data-value=format.name() on:click=move |_| show(*format)>
+                    <b>{format.title()}</b>
+                    <span>{t(manual.about)}</span>
                     <code>{first}</code>
                 </button>
             </li>

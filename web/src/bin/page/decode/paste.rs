@@ -102,7 +102,7 @@ pub(super) fn Paste() -> impl IntoView {
         {move || desk.refusal.get().map(|why| view! { <p class="fault" role="alert" data-testid="refusal">{why}</p> })}
         <div class="doors">
             <button data-testid="example" on:click=move |_| {
-                let text = app.profile.get_untracked().format.spec().example;
+                let text = app.profile.get_untracked().format.manual().example;
                 desk.typed(text.into(), &profile());
             }>
                 {t("Show an example")}

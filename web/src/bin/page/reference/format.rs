@@ -119,7 +119,7 @@ pub(super) fn Page() -> impl IntoView {
 fn Head(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl IntoView {
     let main = kinds.with_value(|kinds| kinds::main(kinds).cloned());
     let facts = Facts::of(&profile, main.as_ref());
-    let about = profile.format.spec().about;
+    let about = profile.format.manual().about;
     let same = query(&profile);
     let explain = main
         .as_ref()

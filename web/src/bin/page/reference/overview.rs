@@ -33,7 +33,7 @@ pub(super) fn Overview() -> impl IntoView {
                 } else {
                     format.default_profile()
                 };
-                row(profile, format.spec().about, mine)
+                row(profile, format.manual().about, mine)
             })
             .collect_view()
     };
