@@ -2,8 +2,8 @@
 import { at, expect, expectLink, number, test, until } from './page.js';
 import { views } from './views.js';
 
-/** Words that are the same in every language: names of formats, makers, programs, units and code. */
-const SAME = /^(?:Encoderscope|Wireshark|[A-Z0-9+/-]+|[a-z-]+=.*|0x[0-9A-Fa-f]+)$/;
+/** Words that are the same in every language: names of formats, makers, programs, keys, units and code. */
+const SAME = /^(?:Encoderscope|Wireshark|Enter|Esc|Synchronous|Serial|Interface|Latency|Timer|[A-Z0-9+/-]+|[a-z-]+=.*|0x[0-9A-Fa-f]+)$/;
 
 /** Texts on the page with two English words in a row, beside what is data. */
 const english = (page) =>

@@ -45,7 +45,7 @@ pub(super) fn asked(profile: &Profile) -> Vec<Asked> {
             .iter()
             .map(|request| Asked {
                 byte: request.byte(),
-                sign: request.name().replace('-', " "),
+                sign: t(&request.name().replace('-', " ")).to_owned(),
                 title: request.title(),
                 lengths: (bytes(request.request()), bytes(request.reply())),
                 changes: request.changes_encoder(),
@@ -193,7 +193,7 @@ fn Sequence(profile: Profile, change: Change, script: &'static Script) -> impl I
     });
     view! {
         <section class="kind" data-testid="reference-sequence" data-value=script.title>
-            <h3>{script.title}</h3>
+            <h3>{t(script.title)}</h3>
             <Scroll label=t(script.title).to_owned()>
                 <table class="sequence">
                     <caption class="unseen">{text!("Steps of {}", t(script.title))}</caption>

@@ -58,7 +58,9 @@ impl Facts {
             check: match widest.map(|sum| (sum.name(), sum.algorithm())) {
                 None => t("none").to_owned(),
                 Some((name, None)) => t(name).to_owned(),
-                Some((_, Some(crc))) => crc.name().map_or(crc.to_string(), str::to_owned),
+                Some((_, Some(crc))) => crc
+                    .name()
+                    .map_or(crc.to_string(), |name| t(name).to_owned()),
             },
         }
     }
@@ -164,7 +166,7 @@ fn Parameters(profile: Profile) -> impl IntoView {
             let words = Profile::words(name).iter().zip(Profile::word_docs(name));
             let words: Vec<_> = words
                 .map(|(word, doc)| {
-                    let doc = t(doc).trim().trim_end_matches('.');
+                    let doc = t(doc.trim()).trim_end_matches('.');
                     view! { <div><b>{*word}</b> " " <span class="doc">{doc}</span></div> }
                 })
                 .collect();
