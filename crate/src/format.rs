@@ -71,7 +71,9 @@ formats! {
     /// IP-75 SSI: [`ssi7`].
     Ssi7 ssi7,
     /// Pepperl+Fuchs and the classic SSI word: [`ssi_tree`].
-    SsiTree ssi_tree;
+    SsiTree ssi_tree,
+    /// The SPI word of AS5047 and AS5048: [`as5048`].
+    As5048 as5048;
     /// A layout of the user's own: [`own`].
     Own own
 }
