@@ -104,7 +104,7 @@ pub(crate) fn LanguageSwitch() -> impl IntoView {
         let (code, (name, letters)) = (language.code(), language.name());
         let pressed = language == present;
         format!(
-            r#"<button lang="{code}" title="{name}" aria-label="{name}" aria-pressed="{pressed}" data-testid="language-{code}">{letters}</button>"#
+            r#"<button lang="{code}" title="{name}" aria-label="{letters}, {name}" aria-pressed="{pressed}" data-testid="language-{code}">{letters}</button>"#
         )
     });
     view! {
