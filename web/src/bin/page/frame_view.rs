@@ -15,6 +15,7 @@ pub(crate) fn FrameView(frame: Explained) -> impl IntoView {
             let note = &frame.notes[note];
             (note.name.as_str(), note.title.as_str())
         });
+        let value = u8::from(frame.bits[index]);
         let first = index == 0 || frame.field_at(index - 1) != note;
         view! {
             <button
@@ -24,13 +25,13 @@ pub(crate) fn FrameView(frame: Explained) -> impl IntoView {
                 data-testid="explain-bit"
                 data-field=field.to_owned()
                 data-index=index
-                aria-label=text!("bit {}, {}", index, title)
+                aria-label=text!("bit {}, {}, {}", index, title, value)
                 on:mouseenter=move |_| lit.set(note)
                 on:focus=move |_| lit.set(note)
                 on:mouseleave=move |_| lit.set(None)
                 on:blur=move |_| lit.set(None)
             >
-                {u8::from(frame.bits[index])}
+                {value}
             </button>
         }
     };
