@@ -18,6 +18,8 @@ wasm_cargo build --profile small -p encoderscope-web --bin element --no-default-
 # What rustc and wasm-bindgen emit; more would shut browsers out.
 features=(--enable-bulk-memory --enable-multivalue --enable-mutable-globals
   --enable-nontrapping-float-to-int --enable-reference-types --enable-sign-ext)
+# Control flow made anew from scratch comes out smaller.
+smallest=(--flatten --rereloop -Oz -Oz)
 
 # One WASM file: its cargo profile and name, the name it is imported by, how it is optimised.
 bind() {
@@ -36,14 +38,14 @@ bind_page() {
   wasm-bindgen --target web --no-typescript --keep-lld-exports --out-dir $new --out-name page $new/page.wasm
   rm $new/page.wasm
   for file in $new/*.wasm; do
-    npx wasm-opt "${features[@]}" --flatten --rereloop -Oz -Oz "$file" -o "$file"
+    npx wasm-opt "${features[@]}" "${smallest[@]}" "$file" -o "$file"
   done
   mv $new $to
 }
 mkdir -p web/pkg
 bind_page
 bind wasm/module encoderscope -O3
-bind small/element encoder-frame -Oz --converge
+bind small/element encoder-frame "${smallest[@]}"
 
 # Whether one of the paths is newer than the file, or there is no such file.
 outdated() { # file, paths
