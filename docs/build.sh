@@ -34,7 +34,7 @@ sphinx() {
   if [ "$($at/bin/sphinx-build --version 2>/dev/null)" != "sphinx-build $sphinx" ]; then
     say "installing Sphinx $sphinx"
     python3 -c 'import ensurepip, venv' 2>/dev/null || apt_get "Python's venv, for Sphinx" python3-venv
-    { python3 -m venv $at && $at/bin/pip install -q sphinx==$sphinx; } ||
+    { python3 -m venv --clear $at && $at/bin/pip install -q sphinx==$sphinx; } ||
       lacks "Sphinx $sphinx" "python3 -m venv $at && $at/bin/pip install sphinx==$sphinx"
   fi
   say "building docs/sphinx"
