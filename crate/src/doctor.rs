@@ -29,8 +29,8 @@ const BYTES_AFTER: usize = 200;
 /// So many good ones among the last frames of a stream, or the last replies, are read, however many
 /// others fail: by chance one in 256 passes the shortest check.
 const READ_FROM: usize = 2;
-const LAST_FRAMES: usize = 64;
-const LAST_REPLIES: usize = 32;
+const LAST_FRAMES: u64 = 64;
+const LAST_REPLIES: u64 = 32;
 /// So many bytes of a stream that are no frame count as one that has failed.
 const ABOUT_A_FRAME: usize = 8;
 /// Where one byte in so many is part of a frame that fails, frames come: by chance one in 256 bytes
@@ -88,8 +88,8 @@ pub struct Doctor {
     silent: u32,
     failing: u32,
     /// Frames and replies up to now, and at which of them the last good ones came.
-    frames: usize,
-    good: VecDeque<usize>,
+    frames: u64,
+    good: VecDeque<u64>,
     /// Bytes since the last good frame: those that are none, with those of frames that failed; those
     /// of such frames alone; and those unasked.
     strange: usize,
@@ -189,7 +189,7 @@ impl Doctor {
                     }
                     Why::NoFrame => {
                         self.strange += bytes.len();
-                        self.frames += bytes.len().div_ceil(ABOUT_A_FRAME);
+                        self.frames += bytes.len().div_ceil(ABOUT_A_FRAME) as u64;
                         if self.is_stream() && self.strange >= BYTES_AFTER {
                             self.silent = 0;
                             self.judge(now);

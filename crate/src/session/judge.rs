@@ -101,7 +101,7 @@ impl Session {
 
     /// What is asked once is done with when its reply is certain, or when it was asked often enough.
     fn end_try(&mut self, certain: bool) {
-        if self.tries == TRIES || certain && self.tries > 0 {
+        if self.tries >= TRIES || certain && self.tries > 0 {
             self.once.pop_front();
             self.tries = 0;
         }

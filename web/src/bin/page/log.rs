@@ -59,7 +59,10 @@ pub(crate) fn Frames() -> impl IntoView {
     let (log, set_log) = signal(Vec::new());
     Effect::new(move || {
         let held = view.held.get();
-        set_log.set(held.unwrap_or_else(|| app.snapshot.with(|snapshot| snapshot.log.clone())));
+        let new = held.unwrap_or_else(|| app.snapshot.with(|snapshot| snapshot.log.clone()));
+        if log.with_untracked(|log| *log != new) {
+            set_log.set(new);
+        }
     });
     let choose = move |index: usize| {
         // A row that runs away cannot be looked at.
