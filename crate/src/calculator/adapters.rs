@@ -102,7 +102,7 @@ fn made(chip: &Chip, asked: u32) -> Answer {
             false => text!("{}{} %", sign, super::quantity::shown(apart, 3)),
         }
     };
-    let with = |text: String| match chip.note {
+    let with = |text: String| match chip.note() {
         "" => text,
         note => format!("{text}; {}", t(note)),
     };
@@ -119,6 +119,6 @@ fn made(chip: &Chip, asked: u32) -> Answer {
             .note(with(t("what it makes exactly is not published").into())),
         Made::Unknown => Answer::worded(chip.name, chip.name, t("not known"))
             .tone(Tone::Warn)
-            .note(t(chip.note)),
+            .note(t(chip.note())),
     }
 }

@@ -91,7 +91,7 @@ fn calculators(said: &mut Vec<String>) {
             }
         }
     }
-    said.extend(CHIPS.iter().map(|chip| t(chip.note).into()));
+    said.extend(CHIPS.iter().map(|chip| t(chip.note()).into()));
     for system in System::ALL {
         said.extend([system.latency().into(), system.permission().into()]);
     }

@@ -64,7 +64,7 @@ fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
         .collect();
     let explainer = kind.explainer();
     view! {
-        <section class="kind" aria-label=title.clone()>
+        <section class="kind" aria-label=format!("{title}: {goes}")>
             <h3>
                 {title.clone()}
                 <small>{asks} {goes} " " {kind.length()}</small>
