@@ -25,7 +25,7 @@ for (const [name, open] of Object.entries(views)) {
   }
 }
 
-/** Whatever gets the focus by Tab, in order, until it comes round again. */
+/** Whatever gets the focus by Tab, from wherever it is, until it comes round again. */
 const tabbed = async (page) => {
   const found = [];
   for (let step = 0; step < 400; step += 1) {
@@ -33,6 +33,7 @@ const tabbed = async (page) => {
     const seen = await page.evaluate(() => {
       const element = document.activeElement;
       if (!element || element === document.body) return undefined;
+      if (element.dataset.tabbed) return 'again';
       element.dataset.tabbed = 'yes';
       const { outlineStyle, outlineWidth } = getComputedStyle(element);
       const box = element.getBoundingClientRect();
@@ -42,8 +43,8 @@ const tabbed = async (page) => {
         shown: box.width > 0 && box.height > 0,
       };
     });
-    if (!seen) return found;
-    found.push(seen);
+    if (seen === 'again') return found;
+    if (seen) found.push(seen);
   }
   throw new Error('Tab never comes round');
 };

@@ -27,6 +27,7 @@ const record = async (page) => {
   await page.locator('form.note input').fill('14:05');
   await at(page, 'record-mark').click();
   await at(page, 'record').click();
+  await expect(at(page, 'record')).toHaveAttribute('aria-pressed', 'false');
   await expect(at(page, 'recording').first()).toHaveAttribute('data-whole', 'true');
 };
 

@@ -1,6 +1,7 @@
 //! Recordings: making them, what is there, replaying and comparing them; and the support file.
 
 mod compare;
+mod deleting;
 mod kept;
 mod recorder;
 mod remains;
@@ -16,6 +17,7 @@ use crate::{
     app::{App, Source},
     handout::save,
 };
+use deleting::Doomed;
 use encoderscope::{
     language::{number, t},
     text,
@@ -36,6 +38,7 @@ pub(crate) struct Recordings {
     app: App,
     state: RwSignal<RecorderState>,
     list: RwSignal<Vec<Kept>>,
+    doomed: RwSignal<Option<Doomed>>,
     /// What could not be done.
     fault: RwSignal<Option<String>>,
     story: RwSignal<Option<Story>>,
@@ -52,6 +55,7 @@ impl Recordings {
                 app,
                 state: RwSignal::new(RecorderState::default()),
                 list: RwSignal::new(Vec::new()),
+                doomed: RwSignal::new(None),
                 fault: RwSignal::new(None),
                 story: RwSignal::new(None),
                 opened: RwSignal::new(None),

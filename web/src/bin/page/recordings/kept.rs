@@ -3,6 +3,7 @@
 use super::{
     Recordings,
     compare::Comparison,
+    deleting::Deleted,
     report::{Handing, Opened},
     size_text,
 };
@@ -26,12 +27,13 @@ pub(crate) fn RecordingsPanel() -> impl IntoView {
             recordings.send(&Wish::Compare([one.clone(), other.clone()]));
         }
     };
+    let is_empty = Memo::new(move |_| recordings.shown().is_empty());
     view! {
         <Opened recordings=recordings />
         <section class="panel recordings">
             <h2>{t("Recordings")}</h2>
             {move || recordings.fault.get().map(|why| view! { <p class="fault" role="alert" data-testid="recordings-fault">{why}</p> })}
-            {move || match recordings.list.with(Vec::is_empty) {
+            {move || match is_empty.get() {
                 true => view! {
                     <p class="hint">
                         {t(
@@ -53,16 +55,17 @@ pub(crate) fn RecordingsPanel() -> impl IntoView {
                             </tr>
                         </thead>
                         <tbody>
-                            <For each=move || recordings.list.get() key=Kept::key let(kept)>
+                            <For each=move || recordings.shown() key=Kept::key let(kept)>
                                 <Row recordings=recordings kept=kept chosen=chosen />
                             </For>
                         </tbody>
                     </table>
                 }.into_any(),
             }}
+            <Deleted recordings=recordings />
             <div class="doors">
                 <OpenFile recordings=recordings />
-                {move || (recordings.list.with(Vec::len) > 1).then(|| view! {
+                {move || (recordings.shown().len() > 1).then(|| view! {
                     <button
                         data-testid="compare"
                         disabled=move || chosen.with(Vec::len) != 2
@@ -100,7 +103,6 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
         (false, false) => Some(t("cut off")),
         (false, true) => None,
     };
-    let asked = RwSignal::new(false);
     view! {
         <tr data-testid="recording" data-name=name() data-whole=kept.whole.to_string()>
             <td>
@@ -117,17 +119,17 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
             <td class="doors">
                 <button data-testid="replay" disabled=kept.runs on:click=move |_| recordings.replay(name())>{t("Replay")}</button>
                 <button data-testid="save" on:click=move |_| recordings.send(&Wish::Fetch(name()))>{t("Save")}</button>
-                {move || match asked.get() {
-                    false => view! {
-                        <button class="quiet" data-testid="delete" disabled=kept.runs on:click=move |_| asked.set(true)>{t("Delete…")}</button>
-                    }.into_any(),
-                    true => view! {
-                        <button data-testid="delete-confirm" on:click=move |_| recordings.send(&Wish::Delete(name()))>
-                            {t("Delete for good")}
-                        </button>
-                        <button class="quiet" on:click=move |_| asked.set(false)>{t("Keep")}</button>
-                    }.into_any(),
-                }}
+                <button
+                    class="quiet"
+                    data-testid="delete"
+                    disabled=kept.runs
+                    on:click=move |_| {
+                        chosen.update(|chosen| chosen.retain(|known| *known != name()));
+                        recordings.delete(name());
+                    }
+                >
+                    {t("Delete")}
+                </button>
             </td>
         </tr>
     }

@@ -147,7 +147,7 @@ fn facts(crc: Algorithm) -> impl IntoView {
     let facts = [
         (
             t("catalogue"),
-            crc.name().unwrap_or(t("no name")).to_owned(),
+            crc.name().map_or(t("no name"), t).to_owned(),
         ),
         (t("width"), text!("{} bits", crc.width)),
         (

@@ -64,9 +64,9 @@ fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
         .collect();
     let explainer = kind.explainer();
     view! {
-        <section class="kind" aria-label=format!("{title}: {goes}")>
+        <section class="kind">
             <h3>
-                {title.clone()}
+                {title}
                 <small>{asks} {goes} " " {kind.length()}</small>
             </h3>
             {drawn}
