@@ -8,6 +8,7 @@ mod captured;
 mod capturing;
 mod export;
 mod judge;
+mod look;
 mod overview;
 mod reading;
 mod rows;
@@ -16,7 +17,7 @@ mod source;
 
 use crate::{
     language, link,
-    message::{Explained, FromDesk, Marked, RowView, Selection, ToDesk, TraceView},
+    message::{FromDesk, Marked, ToDesk},
 };
 use captured::Captured;
 use capturing::{Framing, Tape};
@@ -27,11 +28,10 @@ use encoderscope::{
     export::{Language, source},
     language::t,
     profile::Profile,
-    sheet::{Filter, Order, Quantity, Sheet, Show},
+    sheet::{Filter, Order, Sheet},
 };
 use judge::Judge;
 use overview::marked;
-
 use share::Load;
 use source::Source;
 use std::{cell::RefCell, rc::Rc};
@@ -42,8 +42,6 @@ use web_sys::Blob;
 const TYPED: usize = 400_000;
 /// Marks that the page gets.
 const MOST_MARKS: usize = 400;
-/// Rows at the front of a report, and faulty ones behind them.
-const REPORTED: usize = 4;
 
 /// What has been read of the input.
 #[derive(Debug, Default)]
@@ -265,126 +263,6 @@ impl Desk {
     /// Whether the work of a job is still wanted.
     fn wants(&self, job: u32) -> bool {
         self.state.borrow().job == job
-    }
-
-    fn show(&self, shown: &Selection) {
-        let show = Show::ALL.into_iter().find(|show| show.name() == shown.show);
-        let range = shown.range.as_ref().and_then(|(name, low, high)| {
-            Quantity::parse(name).map(|quantity| (quantity, *low, *high))
-        });
-        let filter = Filter {
-            show: show.unwrap_or_default(),
-            status: shown.status,
-            range,
-        };
-        let order = shown.order.as_ref().and_then(|(name, descending)| {
-            let by = Quantity::parse(name)?;
-            let descending = *descending;
-            Some(Order { by, descending })
-        });
-        {
-            let mut state = self.state.borrow_mut();
-            if state.shown == (filter, order) {
-                return;
-            }
-            state.shown = (filter, order);
-            if let Some(sheet) = &mut state.sheet {
-                sheet.show(filter, order);
-            }
-            if !state.done {
-                return;
-            }
-        }
-        let desk = self.clone();
-        let job = self.state.borrow().job;
-        wasm_bindgen_futures::spawn_local(async move { desk.arrange(job).await });
-    }
-
-    /// Looks at the rows with what there is of the sheet and the dump.
-    fn look<T>(&self, with: impl FnOnce(&Sheet, &Dump) -> T) -> Option<T> {
-        let state = self.state.borrow();
-        Some(with(state.sheet.as_ref()?, state.paper.dump()?))
-    }
-
-    fn send_rows(&self, first: usize, count: usize) {
-        let rows = self.look(|sheet, dump| {
-            let medium = sheet.decoder().profile().medium();
-            let places = first..first.saturating_add(count).min(sheet.shown());
-            let rows = places
-                .filter_map(|place| sheet.row(dump, sheet.shown_at(place)?))
-                .map(|row| rows::row_view(&row, medium));
-            rows.collect::<Vec<RowView>>()
-        });
-        let rows = rows.unwrap_or_default();
-        self.post(FromDesk::Rows { first, rows });
-    }
-
-    fn explained(&self, index: usize) -> Option<Explained> {
-        self.look(|sheet, dump| {
-            let medium = sheet.decoder().profile().medium();
-            let row = sheet.row(dump, index)?;
-            Some(rows::explained(&row, medium))
-        })
-        .flatten()
-    }
-
-    fn explain(&self, index: usize) {
-        let explained = self.explained(index);
-        let mut state = self.state.borrow_mut();
-        state.awaited = (explained.is_none() && !state.done).then_some(index);
-        if let Some(mut explained) = explained {
-            state.explained = Some(index);
-            explained.says.extend(state.captured.said_of(index));
-            drop(state);
-            self.post(FromDesk::Explained(Box::new(explained)));
-        }
-    }
-
-    fn find(&self, wanted: impl FnOnce(&Sheet, &Dump) -> Option<usize>) {
-        let found = self.look(|sheet, dump| {
-            let index = wanted(sheet, dump)?;
-            (index < sheet.len()).then_some(())?;
-            Some((sheet.place_of(index)?, index))
-        });
-        self.post(FromDesk::Found(found.flatten()));
-    }
-
-    fn trace(&self, from: usize, to: usize, columns: usize) {
-        let traced = self.look(|sheet, dump| {
-            let mut view = TraceView {
-                from,
-                to: to.min(sheet.len()),
-                ..TraceView::default()
-            };
-            for column in sheet.columns(dump, from, to, columns) {
-                let (low, high) = column.range.unwrap_or((f64::NAN, f64::NAN));
-                let gap = column.gaps > 0 && column.range.is_none();
-                view.rows.push(column.row as f64);
-                view.degrees.push(low);
-                if !gap && low < high {
-                    view.rows.push(column.row as f64);
-                    view.degrees.push(high);
-                }
-            }
-            view
-        });
-        self.post(FromDesk::Trace(traced.unwrap_or_default()));
-    }
-
-    /// The first rows, and the first ones of each fault.
-    fn report(&self) {
-        let indices = self.look(|sheet, _| {
-            let figures = sheet.figures();
-            let faulty = figures.faults.iter().chain(&figures.skips);
-            let mut all: Vec<usize> = (0..sheet.len().min(REPORTED)).collect();
-            all.extend(faulty.map(|tally| tally.first).take(REPORTED));
-            all.sort_unstable();
-            all.dedup();
-            all
-        });
-        let rows = indices.unwrap_or_default().into_iter();
-        let rows = rows.filter_map(|index| self.explained(index)).collect();
-        self.post(FromDesk::Report(rows));
     }
 
     /// Writes the decoder in a programming language.

@@ -1,20 +1,14 @@
-//! The shell: areas, profile, theme, and the state that they share.
+//! The areas of the page, the profile, and the state that they share.
+
+mod link;
+mod shell;
+
+pub(crate) use shell::summary;
 
 use crate::{
-    Workers, adapters,
-    connection::Connection,
-    console::Console,
-    language::{LanguageSwitch, Spoken},
-    parts::{self, coming, later},
-    plot::Feed,
-    ports::Obstacle,
+    Workers, adapters, connection::Connection, language::Spoken, parts, plot::Feed, ports::Obstacle,
 };
-use encoderscope::{
-    format::Format,
-    language::{number, t},
-    profile::Profile,
-    text,
-};
+use encoderscope::{format::Format, language::t, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
     message::{self, PortId, Snapshot, ToEngine, Wish},
@@ -286,73 +280,6 @@ impl App {
         }
     }
 
-    /// Takes over the profile of a link, where there is one.
-    pub(crate) fn follow_profile_of(self, link: &Fragment) {
-        match link.profile() {
-            Some(Ok(profile)) => self.change_profile(profile),
-            Some(Err(error)) => self
-                .link_fault
-                .set(Some(text!("The link is not right: {}.", error))),
-            None => {}
-        }
-    }
-
-    fn follow_link(self, text: &str) {
-        let fragment = Fragment::parse(text);
-        let area = Area::ALL
-            .into_iter()
-            .find(|area| area.name() == fragment.area);
-        let area = area.unwrap_or(Area::Console);
-        self.link.set(fragment.clone());
-        let moves = self.area.get_untracked() != area;
-        if moves {
-            self.place.set(None);
-            self.area.set(area);
-        }
-        match (area, self.place.get_untracked()) {
-            (Area::Console, _) if fragment.parameters.is_empty() => {}
-            (Area::Console, _) => self.follow_console(fragment),
-            (_, Some(place)) if !moves => place.follow.run(fragment),
-            // The area follows it when its code is there.
-            _ => {}
-        }
-    }
-
-    /// Reading a profile takes more code than the first view has.
-    fn follow_console(self, link: Fragment) {
-        self.reads_link.set(true);
-        leptos::task::spawn_local(async move {
-            if parts::profile_of(self, link).await.is_err() {
-                let why = t("The link cannot be read without the network.");
-                self.link_fault.set(Some(why.into()));
-            }
-            self.reads_link.set(false);
-        });
-    }
-
-    /// Whether a link is the one that was followed last.
-    pub(crate) fn is_here(self, link: &Fragment) -> bool {
-        self.link.with_untracked(|last| last == link)
-    }
-
-    /// The fragment that leads back here; none while the code of the area is on its way.
-    fn fragment(&self) -> Option<String> {
-        match self.area.get() {
-            Area::Console if self.reads_link.get() => None,
-            Area::Console => Some(format!("#/console?{}", query(&self.profile.get()))),
-            _ => self.place.get().map(|place| place.fragment.get()),
-        }
-    }
-
-    /// The whole address that leads back here.
-    pub(crate) fn address(&self) -> String {
-        let address = window().location().href().unwrap_or_default();
-        match self.fragment() {
-            Some(fragment) => address.split('#').next().unwrap_or_default().to_owned() + &fragment,
-            None => address,
-        }
-    }
-
     /// Lets the engine and the ports have their say; `bare` is an address that names no encoder.
     fn begin(self, bare: bool) {
         let app = self;
@@ -414,75 +341,6 @@ pub(crate) fn start(workers: Workers) {
     app.show();
 }
 
-impl App {
-    /// Makes all views, in place of those in another language; what runs goes on.
-    pub(crate) fn show(self) {
-        self.views.set_value(None);
-        let Some(body) = document().body() else {
-            return;
-        };
-        let owner = self.owner.get_value();
-        let views = owner.with(|| mount_to(body, move || shell(self)));
-        self.views.set_value(Some(Box::new(views)));
-    }
-}
-
-/// What is around the areas.
-fn shell(app: App) -> impl IntoView + use<> {
-    view! {
-        <header class="bar">
-            <a class="brand" href="#/console">
-                <svg viewBox="0 0 24 24" aria-hidden="true">
-                    <circle cx="12" cy="12" r="10" />
-                    <line x1="12" y1="12" x2="17" y2="7" />
-                    <circle class="dot" cx="12" cy="12" r="2" />
-                </svg>
-                "Encoderscope"
-            </a>
-            <nav aria-label=t("Areas")>
-                {Area::ALL
-                    .map(|area| {
-                        view! {
-                            <a
-                                href=format!("#/{}", area.name())
-                                aria-current=move || (app.area.get() == area).then_some("page")
-                            >
-                                {area.title()}
-                            </a>
-                        }
-                    })
-                    .into_view()}
-            </nav>
-            <span class="pill" data-testid="profile" data-value=move || query(&app.profile.get())>
-                {move || summary(&app.profile.get())}
-            </span>
-            <LanguageSwitch />
-            // `web/js/main.js` turns the theme, which it sets before the page is drawn.
-            <button class="theme" aria-label=t("Light or dark") title=t("Light or dark")>"◐"</button>
-        </header>
-        <main>
-            {move || {
-                app.link_fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })
-            }}
-            // Views without a heading of their own that says what they are.
-            {move || {
-                let named = match app.area.get() {
-                    Area::Console => app.source.get() != Source::Preview,
-                    Area::Decode | Area::Explain => true,
-                    Area::Reference => false,
-                };
-                named.then(|| view! { <h1 class="unseen">{app.area.get().title()}</h1> })
-            }}
-            {move || match app.area.get() {
-                Area::Console => view! { <Console /> }.into_any(),
-                Area::Decode => later(parts::decode, coming).into_any(),
-                Area::Explain => later(parts::explain, coming).into_any(),
-                Area::Reference => later(parts::reference, coming).into_any(),
-            }}
-        </main>
-    }
-}
-
 /// Does something once the next picture of the page has been drawn.
 pub(crate) fn after_picture(then: impl FnOnce() + 'static) {
     request_animation_frame(move || set_timeout(then, Duration::ZERO));
@@ -507,15 +365,4 @@ fn make_next(made: RwSignal<usize>, all: usize) {
 
 fn location_hash() -> String {
     window().location().hash().unwrap_or_default()
-}
-
-pub(crate) fn summary(profile: &Profile) -> impl IntoView + use<> {
-    let mut text = text!("{} bit", profile.angle_bits);
-    if profile.turns_bits > 0 {
-        text += &text!(" + {} turns", profile.turns_bits);
-    }
-    if profile.is_serial() {
-        text += &text!(" · {} Mbaud", number(f64::from(profile.baud) / 1e6));
-    }
-    view! { <b>{t(profile.title())}</b> " " {text} }
 }
