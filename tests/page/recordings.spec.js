@@ -257,7 +257,6 @@ test('a recording that was deleted comes back when that is undone', async ({ pag
   await row(older).getByTestId('delete').click();
   await expect(at(page, 'deleted')).toContainText(older);
   await expect(at(page, 'recording')).toHaveCount(0);
-  await demo(page);
   await page.reload();
   await at(page, 'demo').click();
   await expect(row(older)).toHaveCount(1);
