@@ -19,7 +19,7 @@ wasm_cargo build --profile small -p encoderscope-web --bin element --no-default-
 features=(--enable-bulk-memory --enable-multivalue --enable-mutable-globals
   --enable-nontrapping-float-to-int --enable-reference-types --enable-sign-ext)
 # Control flow made anew from scratch comes out smaller.
-smallest=(--flatten --rereloop -Oz -Oz)
+smallest=(--strip-producers --flatten --rereloop -Oz -Oz -Oz)
 
 # One WASM file: its cargo profile and name, the name it is imported by, how it is optimised.
 bind() {

@@ -3,7 +3,7 @@
 mod link;
 mod shell;
 
-pub(crate) use shell::summary;
+pub(crate) use shell::{sizes, summary};
 
 use crate::{
     Workers, adapters, connection::Connection, language::Spoken, parts, plot::Feed, ports::Obstacle,

@@ -60,13 +60,16 @@ pub(crate) fn Live() -> impl IntoView {
         <LinkPanel />
         <div class="stage">
             <SearchPanel />
-            <Angle />
+            <div class="centre">
+                <Angle />
+                <DevicesPanel />
+                <PlotPanel />
+            </div>
             <div class="side">
                 <Status />
                 {move || lives.get().then(|| view! { <SettingPanel /> <ZeroWire /> })}
+                <Standstill />
             </div>
-            <DevicesPanel />
-            <div class="plots"><PlotPanel /><Standstill /></div>
             <Frames />
             <RecordingsPanel />
         </div>

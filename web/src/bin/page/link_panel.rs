@@ -55,10 +55,10 @@ pub(crate) fn LinkPanel() -> impl IntoView {
                     }
                 }}
                 {move || (app.source.get() != Source::Demo || !open.get()).then(|| view! { <DemoButton /> })}
+                {move || lives().then(|| view! { <FindButton /> })}
                 {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <ConnectButton /> })}
             </div>
             <PortChooser />
-            {move || lives().then(|| view! { <div class="doors"><FindButton /></div> })}
             {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <DemoKnobs /> })}
             <details>
                 <summary>{t("Encoder settings")}</summary>

@@ -73,16 +73,13 @@ pub(crate) fn Angle() -> impl IntoView {
                         t("unwrapped"),
                         "unwrapped",
                         |shown| shown.turns.map(|turns| turns.mul_add(360.0, shown.degrees)),
-                        |degrees| number(format_args!("{degrees:.3}°")).to_string(),
+                        |degrees| fine(degrees, 1000, "°"),
                     )}
                     {row(
                         t("arc-seconds"),
                         "arc-seconds",
                         |shown| Some(shown.degrees * 3600.0),
-                        |seconds| {
-                            let tenth = (seconds * 10.0) as u64 % 10;
-                            number(format_args!("{}.{tenth}″", grouped(seconds as u64))).to_string()
-                        },
+                        |seconds| fine(seconds, 10, "″"),
                     )}
                     {row(t("speed"), "speed", |shown| shown.speed, |speed| text!("{} rev/s", number(format_args!("{speed:.1}"))))}
                     <Turning />
@@ -97,6 +94,19 @@ pub(crate) fn Angle() -> impl IntoView {
             </div>
         </section>
     }
+}
+
+/// A number with a space between thousands, cut to so many parts of one.
+fn fine(value: f64, parts: u64, unit: &str) -> String {
+    let sign = if value < 0.0 { "-" } else { "" };
+    let all = (value.abs() * parts as f64) as u64;
+    let part = (parts + all % parts).to_string();
+    number(format_args!(
+        "{sign}{}.{}{unit}",
+        grouped(all / parts),
+        &part[1..]
+    ))
+    .to_string()
 }
 
 /// The speed from the angles, where the frames carry none.

@@ -83,7 +83,13 @@ fn shell(app: App) -> impl IntoView + use<> {
     }
 }
 
+/// A profile in a line.
 pub(crate) fn summary(profile: &Profile) -> impl IntoView + use<> {
+    view! { <b>{t(profile.title())}</b> " " {sizes(profile)} }
+}
+
+/// What a profile says behind the name of its format.
+pub(crate) fn sizes(profile: &Profile) -> String {
     let mut text = text!("{} bit", profile.angle_bits);
     if profile.turns_bits > 0 {
         text += &text!(" + {} turns", profile.turns_bits);
@@ -91,5 +97,5 @@ pub(crate) fn summary(profile: &Profile) -> impl IntoView + use<> {
     if profile.is_serial() {
         text += &text!(" · {} Mbaud", number(f64::from(profile.baud) / 1e6));
     }
-    view! { <b>{t(profile.title())}</b> " " {text} }
+    text
 }

@@ -34,6 +34,22 @@ pub(super) fn describe(profile: &Profile) -> String {
     text
 }
 
+/// Text with its powers, `2^24`, as they are printed.
+fn raised(text: &str) -> String {
+    let mut is_power = false;
+    let letters = text.chars().filter_map(|letter| {
+        is_power = letter == '^' || is_power && letter.is_ascii_digit();
+        match (letter, letter.to_digit(10)) {
+            ('^', _) => None,
+            (_, Some(digit)) if is_power => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹']
+                .get(digit as usize)
+                .copied(),
+            _ => Some(letter),
+        }
+    });
+    letters.collect()
+}
+
 /// Reads the input with a profile, a mistake of its capture undone where there is one.
 fn read_as(app: App, change: Option<&String>, profile: Profile) {
     let desk = app.desk();
@@ -97,7 +113,7 @@ pub(super) fn Candidates() -> impl IntoView {
             >
                 <b>{describe(&profile)}</b>
                 <span class=format!("verdict {}", candidate.verdict)>{t(&candidate.verdict).to_owned()}</span>
-                <small>{candidate.evidence.join("; ")}</small>
+                <small>{raised(&candidate.evidence.join("; "))}</small>
             </button>
         })
     };

@@ -77,7 +77,6 @@ pub(super) fn BitRow() -> impl IntoView {
         view! {
             <button
                 class="quiet"
-                class:chosen=move || view.get() == wanted
                 aria-pressed=move || (view.get() == wanted).to_string()
                 on:click=move |_| view.set(wanted)
             >

@@ -75,7 +75,7 @@ pub(super) fn Talk() -> impl IntoView {
             }
         });
         Some(view! {
-            <div class="bar-of">
+            <div class="doors">
                 <button disabled=move || at.get() == 0 data-testid="talk-back" on:click=move |_| go(at.get_untracked().saturating_sub(1))>{t("← back")}</button>
                 <button disabled=at_end data-testid="talk-on" on:click=move |_| go((at.get_untracked() + 1).min(last))>{t("on →")}</button>
                 <span class="hint" role="status">{move || text!("frame {} of {}", at.get() + 1, last + 1)}</span>

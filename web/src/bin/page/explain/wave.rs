@@ -224,8 +224,26 @@ struct Name {
     text: String,
     class: &'static str,
     x: f64,
-    end: f64,
+    /// Where it may begin at the latest: over the last bit of its field.
+    latest: f64,
+    width: f64,
     is_field: bool,
+}
+
+impl Name {
+    /// Where it begins on a line with others, as far left as it may.
+    fn fits(&self, line: &[(f64, f64)]) -> Option<f64> {
+        let mut x = self.x;
+        // Each of the others pushes it to the right once at most.
+        for _ in line {
+            let meets = |(from, end): &&(f64, f64)| x < *end && x + self.width > *from;
+            x = line.iter().find(meets).map_or(x, |(_, end)| *end);
+        }
+        let is_free = line
+            .iter()
+            .all(|(from, end)| x >= *end || x + self.width <= *from);
+        (is_free && x <= self.latest).then_some(x)
+    }
 }
 
 /// The name of each field above its first bit on the wire, and of what else is seen.
@@ -238,6 +256,9 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
             What::Bit(bit) => {
                 let field = plan.cells.get(bit).copied().flatten();
                 if field == last {
+                    if let Some(name) = names.last_mut().filter(|name| name.is_field) {
+                        name.latest = LEFT + fold.x(slot.from);
+                    }
                     continue;
                 }
                 last = field;
@@ -250,12 +271,13 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
             other => (t(other.name()).to_owned(), "none", false),
         };
         let x = LEFT + fold.x(slot.from);
-        let end = x + text.chars().count() as f64 * LETTER + LETTER;
+        let width = text.chars().count() as f64 * LETTER + LETTER;
         names.push(Name {
             text,
             class,
             x,
-            end,
+            latest: x,
+            width,
             is_field,
         });
     }
@@ -266,14 +288,13 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
     let mut drawn = Vec::new();
     for name in names {
         let lines = placed.iter_mut().zip([12.0, 26.0]);
-        let room =
-            |line: &[(f64, f64)]| line.iter().all(|(x, end)| name.end <= *x || name.x >= *end);
-        let Some((line, y)) = lines.into_iter().find(|(line, _)| room(line)) else {
+        let places = lines.filter_map(|(line, y)| Some((name.fits(line)?, line, y)));
+        let Some((x, line, y)) = places.min_by(|one, other| one.0.total_cmp(&other.0)) else {
             continue;
         };
-        line.push((name.x, name.end));
+        line.push((x, x + name.width));
         let class = format!("name {}", name.class);
-        drawn.push(view! { <text class=class x=name.x y=y>{name.text}</text> }.into_any());
+        drawn.push(view! { <text class=class x=x y=y>{name.text}</text> }.into_any());
     }
     drawn
 }

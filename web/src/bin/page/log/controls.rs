@@ -31,7 +31,6 @@ pub(crate) fn Controls(view: LogView) -> impl IntoView {
             {filters.map(|(wanted, text)| view! {
                 <button
                     class="quiet"
-                    class:chosen=move || filter.get() == wanted
                     aria-pressed=move || (filter.get() == wanted).to_string()
                     data-testid="log-filter"
                     data-value=text

@@ -1,12 +1,14 @@
 //! Two recordings side by side.
 
 use super::{Recordings, clock_text};
+use crate::app::sizes;
 use encoderscope::{
     explain::grouped,
     language::{msg, number, t},
     text,
 };
 use encoderscope_web::{
+    link::profile,
     message::{Digest, Lamp},
     plot::Trace,
 };
@@ -61,6 +63,13 @@ pub(super) fn Comparison(recordings: Recordings) -> impl IntoView {
     }
 }
 
+/// The encoder that a link names, in a line.
+fn encoder(link: &str) -> String {
+    profile(link).map_or(link.to_owned(), |profile| {
+        format!("{} {}", t(profile.title()), sizes(&profile))
+    })
+}
+
 /// What a recording comes to, a row each.
 fn rows(digest: &Digest) -> Vec<(&'static str, String)> {
     let counts = digest.counts;
@@ -91,7 +100,7 @@ fn rows(digest: &Digest) -> Vec<(&'static str, String)> {
         .collect();
     vec![
         (msg("length"), clock_text(digest.seconds)),
-        (msg("encoder"), digest.profile.clone()),
+        (msg("encoder"), encoder(&digest.profile)),
         (msg("adapter"), t(&digest.adapter).to_owned()),
         (msg("good frames"), count(counts.good)),
         (msg("bad frames"), count(counts.bad)),

@@ -28,7 +28,6 @@ pub(super) fn FilterBar() -> impl IntoView {
         view! {
             <button
                 class="quiet"
-                class:chosen=is_chosen
                 aria-pressed=move || is_chosen().to_string()
                 data-testid="show"
                 data-value=show.name()
