@@ -45,7 +45,7 @@ errata! {
         msg("error b13, warning b12, status b11…b6, CRC b5…b0"),
         msg("their own status table and frame lengths (47 bits for 17M, 30 for 16) fit nothing else");
     2 msg("MPP and PT, BiSS-C data row") [BissC]
-        msg("angle b(24+X)…b(9+X), turns b(8+X)…b8") =>
+        msg("turns b(24+X)…b(9+X), angle b(8+X)…b8") =>
         msg("the turns have 16 bits, the angle X"),
         msg("the column of widths");
     3 msg("MPP, SSI data row") [Ssi]

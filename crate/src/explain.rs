@@ -99,7 +99,7 @@ impl Resolved {
         let tenths = || tenths(bits::signed(raw, field.width as usize) as i32);
         let text = match field.row.role {
             Role::Turns => {
-                text!("{} turns", grouped_signed(self.turns(raw)))
+                text!("{} {0|turn|turns}", grouped_signed(self.turns(raw)))
             }
             Role::Angle => text!(
                 "{} of {} → {}°",

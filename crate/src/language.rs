@@ -40,7 +40,7 @@ pub struct Catalogue {
 }
 
 impl Catalogue {
-    /// A catalogue of pairs: what is said in English, or `format.field`, and in the other language.
+    /// A catalogue of pairs: what is said in English, and the same in the other language.
     pub fn new<A: Into<String>, B: Into<String>>(
         texts: impl IntoIterator<Item = (A, B)>,
     ) -> &'static Self {

@@ -66,6 +66,38 @@ test('the language changes while an encoder is read, and nothing is lost', async
   expect(await number(page, 'frames-ok')).toBeGreaterThan(500);
 });
 
+test('what the user did since the link stays when the language changes', async ({ page }) => {
+  const cable = page.locator('[data-testid="calculator-input"][data-name="length"]');
+  const dump = '1a 20 83 c1 52 17 00 00 00 c8 f5';
+  await page.goto('/?lang=en#/reference?page=ssi-line');
+  await cable.fill('77');
+  await at(page, 'language-ru').click();
+  await expect(page.locator('nav a').first()).toHaveText('Консоль');
+  await expect(cable).toHaveValue('77');
+  // The button that was pressed is another one now.
+  await expect(at(page, 'language-ru')).toBeFocused();
+
+  await page.goto('/?lang=en#/decode?format=t485&dump=1a2029c03b17000000c837');
+  await expect(at(page, 'dump-row')).toHaveCount(1);
+  await at(page, 'dump-input').fill(dump);
+  await at(page, 'language-ru').click();
+  await expect(at(page, 'dump-input')).toHaveValue(dump);
+  await expect(at(page, 'dump-row')).toContainText('232,7509');
+});
+
+test('the built-in encoder and the plot stay as they were set', async ({ page }) => {
+  await views.console(page, 'en');
+  await at(page, 'demo-hold').click();
+  await page.getByText('Demo status and faults').click();
+  await page.locator('input[name="demo-error"]').check();
+  await page.getByRole('button', { name: '2 min' }).click();
+  await at(page, 'language-ru').click();
+  await expect(page.locator('.shaft small')).toHaveText('стоит');
+  await expect(page.locator('input[name="demo-error"]')).toBeChecked();
+  await expect(page.getByRole('button', { name: '2 мин' })).toHaveAttribute('aria-pressed', 'true');
+  await expect(at(page, 'led')).toHaveClass(/bad/);
+});
+
 test('what was decoded is said again in the other language', async ({ page }) => {
   await views.decode(page, 'en');
   await expect(at(page, 'candidate').first()).toContainText('the check holds');

@@ -13,14 +13,21 @@ function turn() {
   keep('theme', dataset.theme);
 }
 
+let wanted;
+
 async function choose(name) {
+  wanted = name;
   const pairs = await load(name).catch(() => undefined);
+  // Another one may have been chosen meanwhile.
+  if (wanted !== name) return;
   if (pairs || name === 'en') {
     const address = new URL(location.href);
     address.searchParams.set('lang', name);
     history.replaceState(null, '', address);
     keep('language', name);
     told(name, speak(pairs));
+    // The button that was pressed is gone with the rest.
+    document.querySelector(`.languages [lang=${name}]`)?.focus();
   } else {
     told(name);
   }

@@ -81,8 +81,6 @@ struct State {
     /// Counts inputs and profiles: work for an earlier one ends.
     job: u32,
     source: Option<Source>,
-    /// What the source is called.
-    name: String,
     profile: Option<Profile>,
     /// Where the data begins in the source.
     origin: usize,
@@ -130,7 +128,6 @@ impl Desk {
                 post: Rc::new(post),
                 job: 0,
                 source: None,
-                name: String::new(),
                 profile: None,
                 origin: 0,
                 binary: false,
@@ -160,12 +157,12 @@ impl Desk {
             }
             ToDesk::Text { text, profile } => {
                 let bytes: Rc<[u8]> = text.into_bytes().into();
-                self.open(Source::Memory(bytes), String::new(), &profile);
+                self.open(Source::Text(bytes), &profile);
             }
-            ToDesk::File { name, profile } => {
+            ToDesk::File { profile } => {
                 let blob = file.and_then(|file| file.dyn_into::<Blob>().ok());
                 match blob {
-                    Some(blob) => self.open(Source::File(blob), name, &profile),
+                    Some(blob) => self.open(Source::File(blob), &profile),
                     None => self.post(FromDesk::Refused(t("There is no file to read.").into())),
                 }
             }
@@ -202,14 +199,13 @@ impl Desk {
     }
 
     /// Begins with new input.
-    fn open(&self, source: Source, name: String, profile: &str) {
+    fn open(&self, source: Source, profile: &str) {
         if let Some(refusal) = source.refusal() {
             return self.post(FromDesk::Refused(refusal));
         }
         {
             let mut state = self.state.borrow_mut();
             state.source = Some(source);
-            state.name = name;
             state.origin = 0;
             state.tape = Tape::None;
             state.judge = Judge::default();
@@ -231,16 +227,12 @@ impl Desk {
                         change: None,
                     });
                     let bytes: Rc<[u8]> = text.into_bytes().into();
-                    desk.open(Source::Memory(bytes), String::new(), &profile);
+                    desk.open(Source::Text(bytes), &profile);
                     desk.state.borrow_mut().judge.change = Change::parse(&change);
                 }
                 Ok(Load::Bytes(bytes)) => {
                     let bytes: Rc<[u8]> = bytes.into();
-                    desk.open(
-                        Source::Memory(bytes),
-                        t("bytes from a link").into(),
-                        &profile,
-                    );
+                    desk.open(Source::Bytes(bytes), &profile);
                     desk.state.borrow_mut().judge.change = Change::parse(&change);
                 }
                 Err(why) => desk.post(FromDesk::Refused(why)),
@@ -318,8 +310,8 @@ impl Desk {
     fn tell_marks(&self) {
         let marks = {
             let state = self.state.borrow();
-            match (state.paper.dump(), state.name.is_empty()) {
-                (Some(dump), true) => {
+            match (state.paper.dump(), &state.source) {
+                (Some(dump), Some(Source::Text(_))) => {
                     let mut all = marked(dump.dropped());
                     all.extend(marked(dump.unread()).into_iter().map(|mark| Marked {
                         kind: String::new(),

@@ -15,7 +15,7 @@ pub use desk::{
     CandidateView, Count, Explained, FieldView, FileKind, FromDesk, Marked, NearView, Overview,
     RowState, RowView, Selection, ToDesk, TraceView,
 };
-pub use recorder::{Digest, Kept, Place, RecorderState, Recording, Replay, Story};
+pub use recorder::{BIT_CHANGES, Digest, Kept, Place, RecorderState, Recording, Replay, Story};
 pub use search::{Found, Search, SearchStage, Trial};
 pub use snapshot::{Counts, Device, ENTRIES, Entry, Lamp, STILL, Shown, Snapshot};
 pub use wish::{Answer, Wish};

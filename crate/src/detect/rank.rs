@@ -92,14 +92,12 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
     let close = rivals()
         .filter(|rival| leader.score - rival.score < LEAD)
         .count();
-    let undecided: Vec<String> = decides(
+    let undecided = decides(
         &leader,
         rivals().filter(|rival| leader.score - rival.score < SAFE_LEAD),
     );
     let verdict = match alone(&leader, lead) {
-        Verdict::Likely if undecided.iter().any(|said| said == t(SIDE_BY_SIDE)) => {
-            Verdict::Ambiguous
-        }
+        Verdict::Likely if undecided.contains(&Decider::DataSheet) => Verdict::Ambiguous,
         verdict => verdict,
     };
     found.truncate(MOST);
@@ -120,7 +118,8 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
             });
         }
         if candidate.verdict != Verdict::Unlikely {
-            candidate.evidence.extend(undecided.iter().cloned());
+            let said = undecided.iter().map(Decider::sentence);
+            candidate.evidence.extend(said);
         }
     }
     name_alike(&mut found);
@@ -213,66 +212,94 @@ fn name_mixed(found: &mut [Candidate]) {
     }
 }
 
-/// What sample would decide between the best candidate and its rivals.
-fn decides<'a>(leader: &Candidate, rivals: impl Iterator<Item = &'a Candidate>) -> Vec<String> {
-    let mut said: Vec<String> = Vec::new();
-    if leader.distinct < 3 || !leader.checked && leader.distinct < FEW {
-        said.push(t(MORE).to_string());
-    }
-    for rival in rivals {
-        let sentence = between(leader, rival);
-        if !said.contains(&sentence) {
-            said.push(sentence);
-        }
-    }
-    said
+/// What would decide between readings.
+#[derive(Debug, PartialEq, Eq)]
+enum Decider {
+    /// More frames, of a turning shaft.
+    More,
+    /// No frame, but the data sheet: turns and angle stand side by side.
+    DataSheet,
+    /// A sample of which this is said.
+    Sample(String),
 }
 
-fn between(leader: &Candidate, rival: &Candidate) -> String {
+impl Decider {
+    fn sentence(&self) -> String {
+        match self {
+            Self::More => t(MORE).to_string(),
+            Self::DataSheet => t(SIDE_BY_SIDE).to_string(),
+            Self::Sample(sentence) => sentence.clone(),
+        }
+    }
+}
+
+/// What would decide between the best candidate and its rivals.
+fn decides<'a>(leader: &Candidate, rivals: impl Iterator<Item = &'a Candidate>) -> Vec<Decider> {
+    let mut all: Vec<Decider> = Vec::new();
+    if leader.distinct < 3 || !leader.checked && leader.distinct < FEW {
+        all.push(Decider::More);
+    }
+    for rival in rivals {
+        let decider = between(leader, rival);
+        if !all.contains(&decider) {
+            all.push(decider);
+        }
+    }
+    all
+}
+
+fn between(leader: &Candidate, rival: &Candidate) -> Decider {
     let (one, other) = (&leader.profile, &rival.profile);
     let same = one.format == other.format;
     if leader.distinct < 3 {
-        return t(MORE).to_string();
+        return Decider::More;
     }
     let spread = |profile: &Profile| profile.angle_bits + profile.turns_bits;
     let narrow = spread(one).min(spread(other));
     let wide = one.angle_bits.max(other.angle_bits);
     if same && spread(one) != spread(other) && one.format == Format::Ssi && narrow > wide {
-        return text!(
+        return Decider::Sample(text!(
             "frames with turns of at least {} would decide",
             bits::codes(narrow - wide)
-        );
+        ));
     }
     if same && one.command != other.command {
-        return t("whether it is a temperature or a speed shows when the shaft stands and turns")
-            .to_string();
+        return Decider::Sample(
+            t("whether it is a temperature or a speed shows when the shaft stands and turns")
+                .to_string(),
+        );
     }
     if same && one.angle_bits != other.angle_bits && one.code == other.code && is_one_number(one) {
-        return t(SIDE_BY_SIDE).to_string();
+        return Decider::DataSheet;
     }
     if same && one.turns_bits != other.turns_bits && one.angle_bits == other.angle_bits {
         let least = one.turns_bits.min(other.turns_bits);
-        return text!(
+        return Decider::Sample(text!(
             "frames with turns of at least {} would decide",
             bits::codes(least)
-        );
+        ));
     }
     if same && one.status_bits != other.status_bits && one.format == Format::BissC {
-        return t("a capture with a status bit set, or of a turning shaft, would decide")
-            .to_string();
+        return Decider::Sample(
+            t("a capture with a status bit set, or of a turning shaft, would decide").to_string(),
+        );
     }
     if same && one.angle_bits != other.angle_bits && leader.motion.wraps == 0 {
-        return t("turn the shaft through zero: then the width of the angle shows").to_string();
+        return Decider::Sample(
+            t("turn the shaft through zero: then the width of the angle shows").to_string(),
+        );
     }
     if leader.motion.smooth == 0 {
-        return t("the shaft stands still: frames of a turning shaft would decide").to_string();
+        return Decider::Sample(
+            t("the shaft stands still: frames of a turning shaft would decide").to_string(),
+        );
     }
     let rival = match one.format == other.format {
         true => t("another reading of the same format").to_string(),
         false => t(other.title()).to_string(),
     };
-    text!(
+    Decider::Sample(text!(
         "{} fits nearly as well; more frames of a turning shaft would decide",
         rival
-    )
+    ))
 }

@@ -5,7 +5,7 @@ use crate::{
     link,
     message::{Count, Marked, Overview},
 };
-use encoderscope::{dump::Marks, language::t, sheet::Tally};
+use encoderscope::{dump::Marks, sheet::Tally};
 
 /// Places of the text that are no data.
 pub(super) fn marked(marks: &Marks) -> Vec<Marked> {
@@ -19,7 +19,7 @@ pub(super) fn marked(marks: &Marks) -> Vec<Marked> {
 
 fn counts(tallies: &[Tally]) -> Vec<Count> {
     let count = |tally: &Tally| Count {
-        name: t(&tally.name).to_owned(),
+        name: tally.name.clone(),
         count: tally.count as f64,
         first: tally.first,
     };
@@ -32,7 +32,6 @@ impl State {
     /// What the page is told.
     pub(super) fn overview(&self) -> Overview {
         let mut view = Overview {
-            source: self.name.clone(),
             profile: self.profile.as_ref().map(link::query).unwrap_or_default(),
             read: (self.read, self.source.as_ref().map_or(0.0, Source::len)),
             done: self.done,

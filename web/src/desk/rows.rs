@@ -196,8 +196,10 @@ pub(super) fn explained(row: &Row<'_>, medium: Medium) -> Explained {
             view.answers = frame.request.map(|start| start as f64);
             if frame.bits.len() > EXPLAINED {
                 let more = grouped((frame.bits.len() - EXPLAINED) as u64);
-                view.says
-                    .push(text!("{} bits more follow on this line", more));
+                view.says.push(text!(
+                    "{} {0|bit more follows|bits more follow} on this line",
+                    more
+                ));
             }
             // What a field is wrong about stands beside it.
             let of_all = frame.faults().into_iter();

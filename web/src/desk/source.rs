@@ -17,8 +17,10 @@ pub(super) const HEAD: usize = 1 << 16;
 /// Input that can be read again from its beginning.
 #[derive(Clone, Debug)]
 pub(super) enum Source {
-    /// In memory.
-    Memory(Rc<[u8]>),
+    /// Text that was pasted or typed, or that a link carried.
+    Text(Rc<[u8]>),
+    /// Bytes that a link carried.
+    Bytes(Rc<[u8]>),
     /// A file.
     File(Blob),
 }
@@ -27,7 +29,7 @@ impl Source {
     /// Bytes of it.
     pub(super) fn len(&self) -> f64 {
         match self {
-            Self::Memory(bytes) => bytes.len() as f64,
+            Self::Text(bytes) | Self::Bytes(bytes) => bytes.len() as f64,
             Self::File(blob) => blob.size(),
         }
     }
@@ -55,7 +57,7 @@ impl Source {
     /// Up to `count` bytes from `at`.
     pub(super) async fn read(&self, at: f64, count: usize) -> Result<Vec<u8>, String> {
         match self {
-            Self::Memory(bytes) => {
+            Self::Text(bytes) | Self::Bytes(bytes) => {
                 let rest = bytes.get(at as usize..).unwrap_or_default();
                 Ok(rest[..rest.len().min(count)].into())
             }

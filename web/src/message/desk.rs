@@ -17,8 +17,6 @@ pub enum ToDesk {
     },
     /// A file was chosen or dropped.
     File {
-        /// What it is called.
-        name: String,
         /// The profile, as the parameters of a link.
         profile: String,
     },
@@ -184,8 +182,6 @@ pub struct Count {
 /// How far decoding is, and what the rows come to.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Overview {
-    /// What is decoded, in a few words: nothing for text that is on the page.
-    pub source: String,
     /// How the input was written.
     pub writing: String,
     /// The profile that is decoded with, as the parameters of a link.

@@ -2,6 +2,7 @@
 
 use super::{Counts, Snapshot};
 use crate::plot::Trace;
+use encoderscope::language::msg;
 use serde::{Deserialize, Serialize};
 
 /// What runs.
@@ -88,6 +89,9 @@ impl Kept {
         (self.name.clone(), self.size as u64, self.runs, self.whole)
     }
 }
+
+/// What happens to a status bit: it is set, it is not any more, and it was for less than a look.
+pub const BIT_CHANGES: [&str; 3] = [msg("on"), msg("off"), msg("on for a moment")];
 
 /// What happened of late.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,8 @@
 //! What happened of late: how the link was, which status bits came and went, what was set.
 
 use super::{Tally, frame_of};
-use encoderscope::{bits, language::msg, session::Micros};
+use crate::message::BIT_CHANGES;
+use encoderscope::{bits, session::Micros};
 use std::collections::VecDeque;
 
 /// Happenings that are kept.
@@ -62,14 +63,15 @@ impl Tally {
             let bits = field.row.bits.iter();
             bits.map(move |bit| (bit.name, bits::bit(raw, bit.place)))
         });
+        let [on, off, moment] = BIT_CHANGES;
         let is = named.zip(&self.seen_bits);
         for (index, ((name, set), seen)) in is.enumerate() {
             let before = self.story.bits.get(index).copied();
             let (was, had) = before.unwrap_or((false, 0.0));
             let what = match (was, set) {
-                (false, true) => msg("on"),
-                (true, false) => msg("off"),
-                (false, false) if *seen > had => msg("on for a moment"),
+                (false, true) => on,
+                (true, false) => off,
+                (false, false) if *seen > had => moment,
                 _ => "",
             };
             if !what.is_empty() {

@@ -162,10 +162,14 @@ impl App {
         })
     }
 
-    /// The area that is shown takes part in links from now on.
+    /// The area that is shown takes part in links from now on; where it is made anew, in another
+    /// language, it has followed its link already.
     pub(crate) fn settle(self, place: Place) {
+        let before = self.place.get_untracked();
         self.place.set(Some(place));
-        place.follow.run(self.link.get_untracked());
+        if before.is_none() {
+            place.follow.run(self.link.get_untracked());
+        }
     }
 
     /// Speaks to the engine.

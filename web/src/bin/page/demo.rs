@@ -10,6 +10,36 @@ use encoderscope::{
 use encoderscope_web::message::{Knobs, Wish};
 use leptos::prelude::*;
 
+/// How the built-in encoder is set; a new one turns by itself and is well.
+#[derive(Clone, Copy)]
+struct Demo {
+    /// Revolutions per second, once somebody turns it by hand.
+    speed: RwSignal<Option<f64>>,
+    knobs: RwSignal<Knobs>,
+}
+
+impl Demo {
+    fn of(app: App) -> Self {
+        app.keep(|| {
+            let demo = Self {
+                speed: RwSignal::new(None),
+                knobs: RwSignal::new(Knobs::default()),
+            };
+            Effect::new(move || {
+                app.running.track();
+                demo.speed.set(None);
+                demo.set(app, &|knobs| *knobs = Knobs::default());
+            });
+            demo
+        })
+    }
+
+    fn set(self, app: App, change: &dyn Fn(&mut Knobs)) {
+        self.knobs.update(|knobs| change(knobs));
+        app.wish(&Wish::Knobs(self.knobs.get_untracked()));
+    }
+}
+
 #[component]
 pub(crate) fn DemoKnobs() -> impl IntoView {
     let app = expect_context::<App>();
@@ -26,7 +56,7 @@ pub(crate) fn DemoKnobs() -> impl IntoView {
 #[component]
 fn DemoShaft() -> impl IntoView {
     let app = expect_context::<App>();
-    let speed = RwSignal::new(None::<f64>);
+    let speed = Demo::of(app).speed;
     let turn = move |value: f64| {
         speed.set(Some(value));
         app.wish(&Wish::Turn(value));
@@ -55,16 +85,9 @@ fn DemoShaft() -> impl IntoView {
 
 #[component]
 fn Reports(app: App) -> impl IntoView {
-    let knobs = RwSignal::new(Knobs::default());
-    let set = move |change: &dyn Fn(&mut Knobs)| {
-        knobs.update(|knobs| change(knobs));
-        app.wish(&Wish::Knobs(knobs.get_untracked()));
-    };
-    // A profile that changes makes another encoder, which is well.
-    Effect::new(move || {
-        app.profile.track();
-        set(&|knobs| *knobs = Knobs::default());
-    });
+    let demo = Demo::of(app);
+    let knobs = demo.knobs;
+    let set = move |change: &dyn Fn(&mut Knobs)| demo.set(app, change);
     let carries_status = move || !matches!(app.profile.get().format, Format::Asi1 | Format::Asi4);
     let bit = move |place: u32| bits::low_byte(bits::placed(1, place));
     let lamps = move || {

@@ -211,17 +211,10 @@ impl Desk {
     pub(crate) fn open(self, name: Named, file: Blob, profile: &Profile) {
         self.text.set(String::new());
         self.sent.set_value(String::new());
-        let title = name.title();
         self.file.set(Some(name));
         self.forget();
         let profile = query(profile);
-        self.send_with(
-            ToDesk::File {
-                name: title,
-                profile,
-            },
-            Some(file),
-        );
+        self.send_with(ToDesk::File { profile }, Some(file));
     }
 
     /// What was said of other input is not true any more.

@@ -63,7 +63,7 @@ fn Tile(address: u8) -> impl IntoView {
         shown.map_or_else(
             || "–".to_owned(),
             |shown| match shown.turns {
-                Some(turns) => text!("{} turns {}", turns, degrees(shown.degrees)),
+                Some(turns) => text!("{} {0|turn|turns} {}", turns, degrees(shown.degrees)),
                 None => degrees(shown.degrees),
             },
         )

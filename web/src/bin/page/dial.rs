@@ -37,7 +37,7 @@ pub(crate) fn Dial(#[prop(into)] degrees: Signal<Option<f64>>) -> impl IntoView 
         <svg class="dial" class:empty=move || degrees.get().is_none() viewBox="-106 -106 212 212" aria-hidden="true">
             <circle class="ring" r="100" />
             <g class="ticks">{ticks.collect_view()}</g>
-            <g class="labels">{labels.into_view()}</g>
+            <g>{labels.into_view()}</g>
             <path class="arc" d=arc />
             <g class="hand" transform=hand>
                 <line y2="-76" />

@@ -33,7 +33,7 @@ fn trial_text(trial: &Trial) -> String {
     };
     let came = match trial.bytes {
         0.0 => t("silent").into(),
-        bytes => text!("{} bytes", grouped(bytes as u64)),
+        bytes => text!("{} {0|byte|bytes}", grouped(bytes as u64)),
     };
     text!("{} baud · {} · {}", grouped(trial.baud.into()), what, came)
 }

@@ -87,6 +87,7 @@ pub fn speak(code: &str, texts: &JsValue) {
     }
     language::speak(texts);
     name_on_page(language);
+    app.link_fault.set(None);
     app.tell(texts);
     app.spoken.texts.set_value(texts.clone());
     app.spoken.language.set(language);

@@ -203,11 +203,11 @@ struct LampText {
 fn lamp_text(lamp: &Lamp) -> LampText {
     LampText {
         name: t(&lamp.name).to_owned(),
-        doc: (lamp.seen > 0.0).then(|| lamp.doc.clone()),
+        doc: (lamp.seen > 0.0).then(|| t(&lamp.doc).to_owned()),
         now: lamp.now,
         when: match (lamp.now, lamp.seen > 0.0) {
             (true, _) => t("now").into(),
-            (false, true) => text!("in {} frames", grouped(lamp.seen as u64)),
+            (false, true) => text!("in {} {0|frame|frames}", grouped(lamp.seen as u64)),
             (false, false) => t("never").into(),
         },
     }

@@ -90,7 +90,7 @@ fn ask(view: View) {
 #[component]
 pub(crate) fn PlotPanel() -> impl IntoView {
     let app = expect_context::<App>();
-    let view = View::new(app);
+    let view = app.keep(|| View::new(app));
     ask(view);
     let plot = view.feed.plot;
     let available = Memo::new(move |_| plot.with(|plot| plot.available.clone()));

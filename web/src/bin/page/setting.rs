@@ -223,7 +223,7 @@ fn memory_change(address: u8, held: Option<u8>, data: u8) -> String {
 fn position(shown: &Shown) -> String {
     let degrees = number(format!("{:.4}°", shown.degrees));
     match shown.turns {
-        Some(turns) => text!("{} turns {}", turns, degrees),
+        Some(turns) => text!("{} {0|turn|turns} {}", turns, degrees),
         None => degrees.to_string(),
     }
 }

@@ -153,11 +153,15 @@ impl Task {
     }
 }
 
+/// The task that somebody is at.
+#[derive(Clone, Copy)]
+struct Begun(RwSignal<Option<Task>>);
+
 /// The checklist; only for encoders that have the wires.
 #[component]
 pub(crate) fn ZeroWire() -> impl IntoView {
     let app = expect_context::<App>();
-    let task = RwSignal::new(None::<Task>);
+    let Begun(task) = app.keep(|| Begun(RwSignal::new(None)));
     let fits = Memo::new(move |_| matches!(app.profile.get().format, Format::Asi1 | Format::Asi4));
     Effect::new(move || {
         app.snapshot.track();

@@ -94,7 +94,6 @@ pub(super) fn BitRow() -> impl IntoView {
         <div
             class="bits big"
             class:bytes=bytes
-            class:wire=move || view.get() == View::OnTheWire
             role="group"
             aria-label=t("Bits of the frame; a click turns one over")
             data-testid="explain-bits"

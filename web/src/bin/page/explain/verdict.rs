@@ -28,7 +28,7 @@ pub(super) fn Verdict() -> impl IntoView {
         Some(Heard::Reading(reading)) => {
             let turns = reading
                 .turns
-                .map(|turns| text!("{} turns and ", grouped_signed(turns)));
+                .map(|turns| text!("{} {0|turn|turns} and ", grouped_signed(turns)));
             let angle = number(degrees_text(reading.angle, reading.angle_bits, 4)).to_string();
             let error = reading
                 .error

@@ -87,7 +87,7 @@ fn rows(digest: &Digest) -> Vec<(&'static str, String)> {
     let reading = last.reading.map_or("–".into(), |shown| {
         let degrees = number(format!("{:.4}°", shown.degrees));
         match shown.turns {
-            Some(turns) => text!("{} turns, {}", turns, degrees),
+            Some(turns) => text!("{} {0|turn|turns}, {}", turns, degrees),
             None => degrees.to_string(),
         }
     });

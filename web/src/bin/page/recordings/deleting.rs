@@ -29,6 +29,7 @@ impl Recordings {
     pub(super) fn delete(self, name: String) {
         self.finish_deletion();
         if let Ok(timeout) = set_timeout_with_handle(move || self.finish_deletion(), UNDONE) {
+            self.pressed.set_value(true);
             self.doomed.set(Some(Doomed { name, timeout }));
         }
     }
@@ -58,7 +59,8 @@ pub(super) fn Deleted(recordings: Recordings) -> impl IntoView {
     let button = NodeRef::<html::Button>::new();
     // The button that was pressed is gone with its row.
     Effect::new(move |_| {
-        if let Some(button) = button.get() {
+        if let (Some(button), true) = (button.get(), recordings.pressed.get_value()) {
+            recordings.pressed.set_value(false);
             let _ = button.focus();
         }
     });

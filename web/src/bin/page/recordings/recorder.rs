@@ -2,7 +2,10 @@
 
 use super::{Recordings, clock_text, retold, size_text};
 use crate::app::{App, Source};
-use encoderscope::{language::t, text};
+use encoderscope::{
+    language::{msg, t},
+    text,
+};
 use encoderscope_web::{
     browser::property,
     message::{Place, Recording, Wish},
@@ -12,6 +15,9 @@ use leptos::prelude::*;
 use wasm_bindgen::JsCast;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::StorageManager;
+
+/// A note of which nothing else is said, before its number.
+pub(super) const MARKER: &str = msg("marker ");
 
 /// Starts and ends a recording, and leaves notes in it.
 #[component]
@@ -28,6 +34,7 @@ pub(crate) fn RecordButton() -> impl IntoView {
                 let storage: StorageManager = storage;
                 let _ = storage.persist();
             }
+            recordings.notes.set_value(0);
             recordings.send(&Wish::Record);
         }
     };
@@ -88,15 +95,14 @@ fn Remarks(recording: Recording) -> impl IntoView {
 /// Notes, and the copy on disk.
 #[component]
 fn Notes(recordings: Recordings) -> impl IntoView {
-    let note = RwSignal::new(String::new());
-    let count = RwSignal::new(1);
+    let note = recordings.note;
     let leave = move || {
+        recordings.notes.update_value(|notes| *notes += 1);
         let text = note.get_untracked();
         let text = match text.trim() {
-            "" => format!("marker {}", count.get_untracked()),
+            "" => format!("{MARKER}{}", recordings.notes.get_value()),
             text => text.to_owned(),
         };
-        count.update(|count| *count += 1);
         note.set(String::new());
         recordings.send(&Wish::Mark(text));
     };

@@ -1,6 +1,6 @@
 //! The controls of a replay.
 
-use super::{Recordings, retold, size_text};
+use super::{Recordings, noted, size_text};
 use crate::app::{App, Source};
 use encoderscope::{
     language::{msg, t},
@@ -8,7 +8,7 @@ use encoderscope::{
 };
 use encoderscope_web::{
     browser::time_text,
-    message::{Replay, Setting, Wish},
+    message::{Replay, Wish},
 };
 use leptos::prelude::*;
 
@@ -27,23 +27,13 @@ const SPEEDS: [(f64, &str); 8] = [
 /// Steps of the place in the recording.
 const STEPS: f64 = 1000.0;
 
-/// A note as it stands in the recording; what a setting has said of itself, for people.
-fn note_text(note: &str) -> String {
-    let head = note.split(": ").next();
-    match Setting::KINDS.iter().any(|kind| Some(kind.name()) == head) {
-        true => retold(note),
-        false => note.to_owned(),
-    }
-}
-
 #[component]
 pub(crate) fn ReplayBar() -> impl IntoView {
     let app = expect_context::<App>();
     let recordings = Recordings::of(app);
     let replay = Memo::new(move |_| recordings.state.with(|state| state.replay.clone()));
     let exists = Memo::new(move |_| replay.with(Option::is_some));
-    // The speed that it goes on with when it is held.
-    let speed = RwSignal::new(1.0);
+    let speed = recordings.speed;
     let of = move |read: fn(&Replay) -> f64| {
         Memo::new(move |_| replay.with(|replay| replay.as_ref().map_or(0.0, read)))
     };
@@ -137,7 +127,7 @@ pub(crate) fn ReplayBar() -> impl IntoView {
                 })}
                 <ul class="notes">
                     {move || notes.get().into_iter().rev().map(|(at, text)| view! {
-                        <li><span class="number">{time_text(at)}</span> " " {note_text(&text)}</li>
+                        <li><span class="number">{time_text(at)}</span> " " {noted(&text)}</li>
                     }).collect_view()}
                 </ul>
             </div>

@@ -1,7 +1,7 @@
 //! The support file: what the page shows and what was said on the line of late, in one file that
 //! shows the same page elsewhere. It carries no names and no addresses.
 
-use super::{Recordings, clock_text, retold, size_text};
+use super::{Recordings, clock_text, noted, size_text};
 use crate::{
     app::{App, Source},
     doctor,
@@ -128,8 +128,7 @@ fn browser() -> String {
 #[component]
 pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
     let app = recordings.app;
-    let remark = RwSignal::new(String::new());
-    let wanted = RwSignal::new(false);
+    let (wanted, remark) = (recordings.hands, recordings.remark);
     let report = Memo::new(move |_| {
         let story = recordings.story.get()?;
         wanted.get().then(|| Report::of(app, &story, remark.get()))
@@ -208,7 +207,7 @@ fn Contents(report: Report) -> impl IntoView {
     };
     // Behind the time that each line begins with.
     let happened = |line: String| match line.split_at_checked(TIME) {
-        Some((time, text)) => [time, &retold(text)].concat(),
+        Some((time, text)) => [time, &noted(text)].concat(),
         None => line,
     };
     let history = report.history.into_iter().map(happened).collect();

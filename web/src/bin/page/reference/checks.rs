@@ -97,7 +97,7 @@ fn view_of(check: &Check) -> impl IntoView + use<> {
     let from = kind.frame.layout.layout.title();
     view! {
         <section
-            class="kind check-of"
+            class="kind"
             data-testid="reference-check"
             data-field=field.row.name
             data-kind=kind.key.clone()

@@ -130,7 +130,7 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
             <div class="wired">
                 <div class="wiring-picture" data-testid="wiring-picture" inner_html=picture.get_value()></div>
                 <Scroll label=t("Wires").to_owned()>
-                    <table class="wires">
+                    <table>
                         <caption>{t("Wires")}</caption>
                         <thead>
                             <tr>
