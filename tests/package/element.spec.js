@@ -141,7 +141,7 @@ test('attributes that change are followed, and keep what they do not concern', a
   });
   await expect(verdict(element)).toContainText('135°; обороты: 1');
   await element.evaluate((it) => it.setAttribute('angle-bits', '99'));
-  await expect(element.getByRole('alert')).toContainText('angle-bits: 99 is not in 1…64 of BiSS-C');
+  await expect(element.getByRole('alert')).toContainText('angle-bits: 99 вне пределов 1…64 для BiSS-C');
 });
 
 test('a frame that a script has set before the element was there', async ({ page }) => {
@@ -167,7 +167,7 @@ test('a frame that a script has set before the element was there', async ({ page
 test('in Russian, with the terms of the field', async ({ page }) => {
   const element = await show(page, `<section lang="ru-RU">${BISS}</section>`);
   await expect(element.getByRole('button', { name: 'бит 24, угол, 1' })).toBeVisible();
-  await expect(element.getByRole('checkbox')).toHaveAccessibleName('контрольные поля пересчитываются');
+  await expect(element.getByRole('checkbox')).toHaveAccessibleName('контроль пересчитывается');
   const other = await show(page, `<section lang="fr">${BISS}</section>`);
   await expect(verdict(other)).toContainText('good frame');
 });
