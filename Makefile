@@ -1,5 +1,5 @@
 # Everything that is missing is installed by the scripts; what they may not install they name.
-.PHONY: serve test reliability soak audit bench fuzz dist single pack docs fmt clean
+.PHONY: serve test reliability soak audit bench fuzz dist single pack pictures docs fmt clean
 
 serve: dist
 	@echo "Encoderscope is at http://localhost:8080 (Ctrl-C stops it)"
@@ -33,6 +33,9 @@ single: dist
 
 pack:
 	@web/package.sh
+
+pictures: dist
+	@tests/pictures/run.sh
 
 docs: dist
 	@docs/build.sh

@@ -34,6 +34,7 @@ const named = {
     const paths = [
       'web/pkg/npm/encoder-frame.js',
       'web/pkg/npm/encoder-frame_bg.wasm',
+      'web/pkg/npm/ru.json',
       ...icons.map((icon) => `web/icons/${icon}`),
     ];
     for (const path of paths) {
@@ -63,9 +64,10 @@ const offline = VitePWA({
     })),
   },
   workbox: {
-    globPatterns: ['**/*.{html,css,js,wasm,svg,png}'],
+    globPatterns: ['**/*.{html,css,js,json,wasm,svg,png}'],
     maximumFileSizeToCacheInBytes: 4_000_000,
     navigateFallback: null,
+    ignoreURLParametersMatching: [/^lang$/],
     inlineWorkboxRuntime: true,
   },
 });

@@ -22,8 +22,11 @@ book() {
   fi
   say "building docs/book"
   target/tools/bin/mdbook build docs/book
-  # The chapters ask for them beside themselves.
+  # The chapters ask for them beside themselves, and documents for pictures where they stand.
   cp dist/encoder-frame.js dist/encoder-frame_bg.wasm target/docs/book
+  mkdir -p target/docs/book/docs
+  cp -r docs/pictures target/docs/book/docs
+  cp docs/growth.svg target/docs/book
 }
 
 sphinx() {

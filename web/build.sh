@@ -4,6 +4,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 source web/toolchain.sh
 
+say "checking the texts of other languages"
+node web/locales/build.mjs
+
 say "building the core"
 wasm_cargo build --profile wasm -p encoderscope-web --bin module
 say "building the page"
@@ -15,6 +18,8 @@ wasm_cargo build --profile small -p encoderscope-web --bin element --no-default-
 # What rustc and wasm-bindgen emit; more would shut browsers out.
 features=(--enable-bulk-memory --enable-multivalue --enable-mutable-globals
   --enable-nontrapping-float-to-int --enable-reference-types --enable-sign-ext)
+# Control flow made anew from scratch comes out smaller.
+smallest=(--strip-producers --flatten --rereloop -Oz -Oz -Oz)
 
 # One WASM file: its cargo profile and name, the name it is imported by, how it is optimised.
 bind() {
@@ -33,14 +38,14 @@ bind_page() {
   wasm-bindgen --target web --no-typescript --keep-lld-exports --out-dir $new --out-name page $new/page.wasm
   rm $new/page.wasm
   for file in $new/*.wasm; do
-    npx wasm-opt "${features[@]}" -Oz "$file" -o "$file"
+    npx wasm-opt "${features[@]}" "${smallest[@]}" "$file" -o "$file"
   done
   mv $new $to
 }
 mkdir -p web/pkg
 bind_page
 bind wasm/module encoderscope -O3
-bind small/element encoder-frame -Oz --converge
+bind small/element encoder-frame "${smallest[@]}"
 
 # Whether one of the paths is newer than the file, or there is no such file.
 outdated() { # file, paths
@@ -52,7 +57,7 @@ brotli() {
   node -e 'process.stdout.write(String(require("zlib").brotliCompressSync(require("fs").readFileSync(process.argv[1])).length))' "$1"
 }
 
-sources=(package-lock.json web/pkg/*.js web/pkg/*.wasm web/pkg/page web/js web/public web/style)
+sources=(package-lock.json web/pkg/ru.json web/pkg/*.js web/pkg/*.wasm web/pkg/page web/js web/public web/style)
 npm=web/pkg/npm
 if outdated $npm/encoder-frame.js web/modules.config.js "${sources[@]}"; then
   say "bundling the modules"

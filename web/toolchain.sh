@@ -63,13 +63,23 @@ wasm_clippy() {
   fi
 }
 
+# What is built names no directory of the machine that built it, and is shorter for it.
+nowhere() {
+  local from flags=
+  for from in "${CARGO_HOME:-$HOME/.cargo}"/registry/src/*/; do
+    flags+="'--remap-path-prefix=$from=',"
+  done
+  echo "target.$wasm_target.rustflags=[$flags]"
+}
+
 wasm_cargo() {
   if [ $wasm_target_dir = target ]; then
-    CARGO_BUILD_TARGET=$wasm_target cargo "$@"
+    CARGO_BUILD_TARGET=$wasm_target cargo --config "$(nowhere)" "$@"
   else
     # The library built above has no bitcode, which optimising across crates would need.
     PATH=/usr/bin:$PATH CARGO_BUILD_TARGET=$wasm_target CARGO_TARGET_DIR=$wasm_target_dir \
-      CARGO_PROFILE_WASM_LTO=off CARGO_PROFILE_SMALL_LTO=off /usr/bin/cargo "$@"
+      CARGO_PROFILE_WASM_LTO=off CARGO_PROFILE_SMALL_LTO=off \
+      /usr/bin/cargo --config "$(nowhere)" "$@"
   fi
 }
 

@@ -6,6 +6,8 @@
 
 mod system;
 
+use crate::language::msg;
+
 pub use system::System;
 
 /// A chip.
@@ -15,8 +17,6 @@ pub struct Chip {
     pub name: &'static str,
     /// USB vendor and product, where they tell it from others.
     pub identity: Option<(u16, u16)>,
-    /// What to know about it.
-    pub note: &'static str,
     clock: Clock,
 }
 
@@ -52,16 +52,10 @@ pub const LATENCY: f64 = 16.0;
 /// The least that it can be told.
 pub const LEAST_LATENCY: f64 = 1.0;
 
-const fn chip(
-    name: &'static str,
-    identity: Option<(u16, u16)>,
-    clock: Clock,
-    note: &'static str,
-) -> Chip {
+const fn chip(name: &'static str, identity: Option<(u16, u16)>, clock: Clock) -> Chip {
     Chip {
         name,
         identity,
-        note,
         clock,
     }
 }
@@ -73,58 +67,21 @@ const SLOW: f64 = 1_200.0;
 const GREATEST: f64 = 131_071.0;
 const HIGH_SPEED: Clock = Clock::Eighths(12_000_000);
 const FULL_SPEED: Clock = Clock::Eighths(FULL);
-/// Both are as far from 2.5 Mbaud.
-const GAP: &str = "makes nothing between 2 and 3 Mbaud; drivers take one or the other";
 
 /// Chips of common adapters.
 pub static CHIPS: &[Chip] = &[
-    chip("FT232H", Some((0x0403, 0x6014)), HIGH_SPEED, ""),
-    chip(
-        "FT2232H",
-        Some((0x0403, 0x6010)),
-        HIGH_SPEED,
-        "the older FT2232D says the same of itself and does as FT232R",
-    ),
-    chip("FT4232H", Some((0x0403, 0x6011)), HIGH_SPEED, ""),
-    chip("FT232R", Some((0x0403, 0x6001)), FULL_SPEED, GAP),
-    chip("FT230X", Some((0x0403, 0x6015)), FULL_SPEED, GAP),
-    chip("FT2232D", None, FULL_SPEED, GAP),
-    chip(
-        "CH340",
-        Some((0x1a86, 0x7523)),
-        Clock::UpTo(2_000_000),
-        "its maker's list ends at 2 Mbaud, that of the CH341 too",
-    ),
-    chip(
-        "CH343",
-        Some((0x1a86, 0x55d3)),
-        Clock::Unknown,
-        "reaches 3 Mbaud and more, the CH347 too; in which steps is not published: measure",
-    ),
-    chip(
-        "CP210x",
-        Some((0x10c4, 0xea60)),
-        Clock::Unknown,
-        "CP2102, CP2104 and CP2102N say the same of themselves",
-    ),
-    chip(
-        "CP2104",
-        None,
-        Clock::UpTo(2_000_000),
-        "its data sheet ends at 2 Mbaud, that of the CP2102 earlier",
-    ),
-    chip(
-        "CP2102N",
-        None,
-        Clock::Unknown,
-        "reaches 3 Mbaud; in which steps is not established: measure",
-    ),
-    chip(
-        "PL2303",
-        Some((0x067b, 0x2303)),
-        Clock::Unknown,
-        "many versions and copies: measure, and take another for 2.5 Mbaud",
-    ),
+    chip("FT232H", Some((0x0403, 0x6014)), HIGH_SPEED),
+    chip("FT2232H", Some((0x0403, 0x6010)), HIGH_SPEED),
+    chip("FT4232H", Some((0x0403, 0x6011)), HIGH_SPEED),
+    chip("FT232R", Some((0x0403, 0x6001)), FULL_SPEED),
+    chip("FT230X", Some((0x0403, 0x6015)), FULL_SPEED),
+    chip("FT2232D", None, FULL_SPEED),
+    chip("CH340", Some((0x1a86, 0x7523)), Clock::UpTo(2_000_000)),
+    chip("CH343", Some((0x1a86, 0x55d3)), Clock::Unknown),
+    chip("CP210x", Some((0x10c4, 0xea60)), Clock::Unknown),
+    chip("CP2104", None, Clock::UpTo(2_000_000)),
+    chip("CP2102N", None, Clock::Unknown),
+    chip("PL2303", Some((0x067b, 0x2303)), Clock::Unknown),
 ];
 
 impl Chip {
@@ -134,6 +91,27 @@ impl Chip {
         CHIPS
             .iter()
             .find(|chip| chip.identity == Some((vendor, product)))
+    }
+
+    /// What to know about it; not in its row, so that who asks for rates alone need not carry it.
+    #[must_use]
+    pub fn note(&self) -> &'static str {
+        match self.name {
+            "FT2232H" => msg("the older FT2232D says the same of itself and does as FT232R"),
+            // Both are as far from 2.5 Mbaud.
+            "FT232R" | "FT230X" | "FT2232D" => {
+                msg("makes nothing between 2 and 3 Mbaud; drivers take one or the other")
+            }
+            "CH340" => msg("its maker's list ends at 2 Mbaud, that of the CH341 too"),
+            "CH343" => msg(
+                "reaches 3 Mbaud and more, the CH347 too; in which steps is not published: measure",
+            ),
+            "CP210x" => msg("CP2102, CP2104 and CP2102N say the same of themselves"),
+            "CP2104" => msg("its data sheet ends at 2 Mbaud, that of the CP2102 earlier"),
+            "CP2102N" => msg("reaches 3 Mbaud; in which steps is not established: measure"),
+            "PL2303" => msg("many versions and copies: measure, and take another for 2.5 Mbaud"),
+            _ => "",
+        }
     }
 
     /// What it makes of a baud rate.

@@ -13,7 +13,7 @@
 //! assert_eq!(busy.text, "the word is on its way");
 //! ```
 
-mod tables;
+pub mod tables;
 mod word;
 
 pub use word::{Form, Word, WordError};
@@ -22,7 +22,9 @@ use crate::{
     bits::{self, BitString, Span},
     explain::{Note, grouped},
     format::Format,
+    language::{msg, t},
     layout::{Layout, Resolved, Shape},
+    text,
 };
 use alloc::{
     format,
@@ -31,7 +33,7 @@ use alloc::{
 };
 
 /// Where the registers are described.
-pub const SOURCE: &str = "P+F article, registers of the SSI module and table 5";
+pub const SOURCE: &str = msg("P+F article, registers of the SSI module and table 5");
 /// Modules of a board.
 pub const MODULES: u32 = 4;
 /// Bytes from one module to the next.
@@ -55,8 +57,8 @@ impl Access {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Read => "read",
-            Self::Write => "write",
+            Self::Read => msg("read"),
+            Self::Write => msg("write"),
         }
     }
 }
@@ -245,14 +247,19 @@ impl Register {
             _ => digits.parse(),
         };
         let number = parsed.map_err(|_| {
-            format!("\"{text}\" is no value of a register: 100, 0x64 and 0b1100100 are")
+            text!(
+                "\"{}\" is no value of a register: 100, 0x64 and 0b1100100 are",
+                text
+            )
         })?;
         let width = self.width();
         match u32::try_from(number) {
             Ok(value) if number <= bits::mask(width) => Ok(value),
-            _ => Err(format!(
-                "{text} does not fit: {} has {width} bits",
-                self.title()
+            _ => Err(text!(
+                "{} does not fit: {} has {} bits",
+                text,
+                self.title(),
+                width
             )),
         }
     }
@@ -274,35 +281,35 @@ impl Register {
 
     /// What the number of a field says.
     fn says(self, field: &str, raw: u64) -> String {
-        let level = |high: bool| if high { "high" } else { "low" };
+        let level = |high: bool| if high { t("high") } else { t("low") };
         match (self, field) {
-            (_, "unused") if raw == 0 => "zero".into(),
-            (_, "unused") => "the article says nothing of these bits".into(),
-            (Self::Frq, _) => format!(
+            (_, "unused") if raw == 0 => t("zero").into(),
+            (_, "unused") => t("the article says nothing of these bits").into(),
+            (Self::Frq, _) => text!(
                 "the PCI clock through {}",
                 grouped(divider(bits::low_word(raw)).into())
             ),
-            (Self::Counts, _) => format!("{raw} bits, {} clocks", raw + 1),
-            (Self::Start, _) => "any value starts a reading".into(),
-            (Self::Control, _) if raw == 1 => "Gray code becomes binary".into(),
-            (Self::Control, _) => "the word stays as it comes".into(),
-            (Self::Status, "busy") if raw == 1 => "the word is on its way".into(),
-            (Self::Status, "busy") => "done: the words are in SHIFT".into(),
+            (Self::Counts, _) => text!("{} bits, {} clocks", raw, raw + 1),
+            (Self::Start, _) => t("any value starts a reading").into(),
+            (Self::Control, _) if raw == 1 => t("Gray code becomes binary").into(),
+            (Self::Control, _) => t("the word stays as it comes").into(),
+            (Self::Status, "busy") if raw == 1 => t("the word is on its way").into(),
+            (Self::Status, "busy") => t("done: the words are in SHIFT").into(),
             (Self::Status, name) if name.starts_with("data") => {
-                format!("the line is {}", level(raw == 1))
+                text!("the line is {}", level(raw == 1))
             }
             // Table 5: 0 says that the level is high.
-            (Self::Status, _) => format!("the input is {}", level(raw == 0)),
-            (Self::Output, _) if raw == 1 => "the output is on".into(),
-            (Self::Output, _) => "the output is off, as after a restart".into(),
+            (Self::Status, _) => text!("the input is {}", level(raw == 0)),
+            (Self::Output, _) if raw == 1 => t("the output is on").into(),
+            (Self::Output, _) => t("the output is off, as after a restart").into(),
             (Self::Shift(_), _) => format!("0x{raw:08X}"),
-            (Self::Identity, _) => said(raw),
+            (Self::Identity, _) => letters(raw),
         }
     }
 }
 
 /// Two characters, where they are letters or digits.
-fn said(raw: u64) -> String {
+fn letters(raw: u64) -> String {
     let letters: Option<String> = [bits::slice(raw, 8, 8), bits::slice(raw, 0, 8)]
         .into_iter()
         .map(|code| {
@@ -311,10 +318,10 @@ fn said(raw: u64) -> String {
         })
         .collect();
     match letters.as_deref() {
-        Some("SI") => "SI: Synchronous Serial Interface".into(),
-        Some("10") => "10: revision 1.0".into(),
+        Some("SI") => t("SI: Synchronous Serial Interface").into(),
+        Some("10") => t("10: revision 1.0").into(),
         Some(other) => other.to_string(),
-        None => format!("0x{raw:04X}: no letters"),
+        None => text!("0x{}: no letters", format_args!("{raw:04X}")),
     }
 }
 

@@ -23,6 +23,7 @@ pub mod quantity;
 mod resolution;
 mod ssi_line;
 
+use crate::{language::t, text};
 use alloc::{
     format,
     string::{String, ToString},
@@ -257,17 +258,23 @@ impl Input {
         }
     }
 
+    /// The same for people.
+    #[must_use]
+    pub fn unit_title(&self) -> String {
+        counted("", self.unit()).trim().to_string()
+    }
+
     fn read(&self, text: &str) -> Result<Entered, Fault> {
         let wrong = |message: String| Fault {
             input: self.name,
-            message: format!("{}: {message}", lowered(self.title)),
+            message: format!("{}: {message}", lowered(t(self.title))),
         };
         match self.kind {
             Kind::Word(words) => {
                 let found = words.iter().find(|word| word.name == text);
                 found.map(|word| Entered::Word(word.name)).ok_or_else(|| {
                     let names: Vec<_> = words.iter().map(|word| word.name).collect();
-                    wrong(format!("\"{text}\" is none of {}", names.join(", ")))
+                    wrong(text!("\"{}\" is none of {}", text, names.join(", ")))
                 })
             }
             Kind::Number {
@@ -280,26 +287,36 @@ impl Input {
                 let number = quantity::parse(text, measure, unit).map_err(wrong)?;
                 let say = |bound: f64| match (measure, unit) {
                     (Measure::Address, _) => format!("0x{:X}", bound as u64),
-                    (_, "") => quantity::rounded(bound, 9),
-                    (_, unit) => format!("{} {unit}", quantity::rounded(bound, 9)),
+                    (_, unit) => counted(&quantity::shown(bound, 9), unit),
                 };
                 if number < least {
-                    return Err(wrong(format!("{text} is less than {}", say(least))));
+                    return Err(wrong(text!("{} is less than {}", text, say(least))));
                 }
                 if number > most {
-                    return Err(wrong(format!("{text} is more than {}", say(most))));
+                    return Err(wrong(text!("{} is more than {}", text, say(most))));
                 }
                 let nearest = (number + 0.5) as i64 as f64;
                 match whole {
                     // What a unit multiplies is not exact.
                     true if (number - nearest).abs() > 1e-6 => {
-                        Err(wrong(format!("{text} is not a whole number")))
+                        Err(wrong(text!("{} is not a whole number", text)))
                     }
                     true => Ok(Entered::Number(nearest)),
                     false => Ok(Entered::Number(number)),
                 }
             }
         }
+    }
+}
+
+/// A number with its unit.
+fn counted(number: &str, unit: &'static str) -> String {
+    match unit {
+        "" | "°" | "′" | "″" => format!("{number}{unit}"),
+        "bits" => text!("{} bits", number),
+        "bytes" => text!("{} bytes", number),
+        "counts" => text!("{} counts", number),
+        unit => format!("{number} {}", t(unit)),
     }
 }
 
@@ -355,20 +372,16 @@ impl Outcome {
 
 impl Answer {
     /// A number with its unit, rounded to so many digits.
-    fn of(name: &'static str, title: &str, number: f64, digits: i32, unit: &str) -> Self {
-        let text = quantity::rounded(number, digits);
-        let gap = match unit {
-            "" | "°" | "′" | "″" => "",
-            _ => " ",
-        };
+    fn of(name: &'static str, title: &str, number: f64, digits: i32, unit: &'static str) -> Self {
+        let text = counted(&quantity::shown(number, digits), unit);
         Self {
             number: Some(number),
-            ..Self::said(name, title, format!("{text}{gap}{unit}"))
+            ..Self::worded(name, title, text)
         }
     }
 
     /// An answer in words.
-    fn said(name: &'static str, title: &str, text: impl Into<String>) -> Self {
+    fn worded(name: &'static str, title: &str, text: impl Into<String>) -> Self {
         Self {
             name,
             title: title.to_string(),

@@ -10,7 +10,10 @@ mod walk;
 pub use algorithm::Algorithm;
 pub use walk::{Step, Walk};
 
-use crate::bits::{self, Bits, Span};
+use crate::{
+    bits::{self, Bits, Span},
+    language::{in_english, msg, t},
+};
 use alloc::{
     boxed::Box,
     string::{String, ToString},
@@ -176,13 +179,22 @@ impl Checksum {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Crc8x97 => "CRC-8, x⁸+x⁷+x⁴+x²+x+1",
-            Self::Crc8Xor => "CRC-8, x⁸+1 (exclusive or of all bytes)",
-            Self::Crc6Biss => "CRC-6, x⁶+x+1, sent inverted",
-            Self::Crc16x8005 => "CRC-16, x¹⁶+x¹⁵+x²+1",
-            Self::EvenParity => "even parity",
-            Self::OddParity => "odd parity",
+            Self::Crc8x97 => msg("CRC-8, x⁸+x⁷+x⁴+x²+x+1"),
+            Self::Crc8Xor => msg("CRC-8, x⁸+1 (exclusive or of all bytes)"),
+            Self::Crc6Biss => msg("CRC-6, x⁶+x+1, sent inverted"),
+            Self::Crc16x8005 => msg("CRC-16, x¹⁶+x¹⁵+x²+1"),
+            Self::EvenParity => msg("even parity"),
+            Self::OddParity => msg("odd parity"),
             Self::Own(own) => &own.name,
+        }
+    }
+
+    /// The same for people, in their language.
+    #[must_use]
+    pub fn title(self) -> String {
+        match self {
+            Self::Own(own) => own.algorithm.to_string(),
+            other => t(other.name()).into(),
         }
     }
 }
@@ -210,7 +222,7 @@ impl OwnCrc {
             residue: 0,
         }));
         Self {
-            name: algorithm.to_string(),
+            name: in_english(|| algorithm.to_string()),
             algorithm,
             crc: Crc::<u16, NoTable>::new(leaked),
         }

@@ -23,8 +23,10 @@ use crate::{
     bits::{Bits, Polynomial, Span},
     check::Algorithm,
     format::Medium,
+    language::t,
+    say, text,
 };
-use alloc::{format, string::String, vec::Vec};
+use alloc::{string::String, vec::Vec};
 use core::fmt;
 
 /// The longest frame that is searched, in bits.
@@ -81,12 +83,12 @@ impl Sum {
     pub fn name(&self) -> String {
         match self {
             Self::Crc(crc) => match crc.name() {
-                Some(name) => name.into(),
-                None => format!("CRC-{}", crc.width),
+                Some(name) => t(name).into(),
+                None => text!("CRC-{}", crc.width),
             },
-            Self::Added { .. } | Self::Subtracted { .. } => "sum of bytes".into(),
-            Self::Even => "even parity".into(),
-            Self::Odd => "odd parity".into(),
+            Self::Added { .. } | Self::Subtracted { .. } => t("sum of bytes").into(),
+            Self::Even => t("even parity").into(),
+            Self::Odd => t("odd parity").into(),
         }
     }
 }
@@ -95,12 +97,20 @@ impl fmt::Display for Sum {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Crc(crc) => write!(f, "{crc}"),
-            Self::Added { plus: 0 } => f.write_str("sum of bytes modulo 256"),
-            Self::Added { plus } => write!(f, "sum of bytes modulo 256, plus 0x{plus:02X}"),
-            Self::Subtracted { plus: 0 } => f.write_str("sum of all bytes modulo 256 is 0"),
-            Self::Subtracted { plus: 0xff } => f.write_str("inverted sum of bytes modulo 256"),
+            Self::Added { plus: 0 } => f.write_str(t("sum of bytes modulo 256")),
+            Self::Added { plus } => say!(
+                f,
+                "sum of bytes modulo 256, plus 0x{}",
+                format_args!("{plus:02X}")
+            ),
+            Self::Subtracted { plus: 0 } => f.write_str(t("sum of all bytes modulo 256 is 0")),
+            Self::Subtracted { plus: 0xff } => f.write_str(t("inverted sum of bytes modulo 256")),
             Self::Subtracted { plus } => {
-                write!(f, "0x{plus:02X} less the sum of bytes modulo 256")
+                say!(
+                    f,
+                    "0x{} less the sum of bytes modulo 256",
+                    format_args!("{plus:02X}")
+                )
             }
             Self::Even | Self::Odd => f.write_str(&self.name()),
         }
@@ -128,7 +138,7 @@ pub struct Found {
 
 impl fmt::Display for Found {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
+        say!(
             f,
             "{} in {} over {}",
             self.sum,
@@ -136,22 +146,25 @@ impl fmt::Display for Found {
             place(self.covers)
         )?;
         if self.order == ByteOrder::Little {
-            f.write_str(", low byte first")?;
+            f.write_str(t(", low byte first"))?;
         }
-        write!(f, "; holds in {} of {} frames", self.holds, self.frames)
+        say!(f, "; holds in {} of {} frames", self.holds, self.frames)
     }
 }
 
 /// A run of bits for people, in bytes where it is made of them.
 fn place(span: Span) -> String {
     let whole = span.start.is_multiple_of(8) && span.len.is_multiple_of(8);
-    let (unit, first, len) = match whole {
-        true => ("byte", span.start / 8, span.len / 8),
-        false => ("bit", span.start, span.len),
+    let (first, len) = match whole {
+        true => (span.start / 8, span.len / 8),
+        false => (span.start, span.len),
     };
-    match len {
-        1 => format!("{unit} {first}"),
-        _ => format!("{unit}s {first}…{}", (first + len).saturating_sub(1)),
+    let last = (first + len).saturating_sub(1);
+    match (whole, len) {
+        (true, 1) => text!("byte {}", first),
+        (true, _) => text!("bytes {}…{}", first, last),
+        (false, 1) => text!("bit {}", first),
+        (false, _) => text!("bits {}…{}", first, last),
     }
 }
 

@@ -12,13 +12,13 @@ use crate::{
     bits::{self, BitString, Bits, Span},
     dump::Dump,
     explain::Note,
-    format::{Format, Medium, asi1, asi4, biss_c, bus, period, ssi, ssi_tree, ssi7, t485},
+    format::{Format, Medium, bus, t485},
     framing::{Framer, Piece, PieceKind, Why},
     layout::{Resolved, Shape},
     profile::{Profile, ProfileError},
     reading::{Fault, FaultKind, Reading, Values},
 };
-use alloc::{borrow::Cow, vec, vec::Vec};
+use alloc::{borrow::Cow, vec::Vec};
 pub(crate) use leads::Follows;
 use leads::{Lead, NO_LEAD};
 
@@ -160,28 +160,7 @@ impl Decoder {
     pub fn new(profile: Profile) -> Result<Self, ProfileError> {
         profile.check()?;
         let shape = Shape::of(profile);
-        let one = |table| vec![Resolved::new(table, shape)];
-        let layouts: Vec<Resolved> = match profile.format {
-            Format::Ssi => one(&ssi::WORD),
-            Format::BissC => one(&biss_c::FRAME),
-            Format::Ssi7 => one(&ssi7::WORD),
-            Format::SsiTree => one(&ssi_tree::WORD),
-            Format::Rs485 => one(profile.command.reply()),
-            Format::Period => one(period::FRAME),
-            Format::Asi1 => one(&asi1::PACKET),
-            Format::Own => profile.own.map_or(Vec::new(), |own| one(own.layout())),
-            Format::Asi4 => (1..=asi4::DIGITS as u32)
-                .map(|digits| Resolved::new(&asi4::LINE, Shape { digits, ..shape }))
-                .collect(),
-            Format::T485 => t485::Request::ALL
-                .iter()
-                .map(|request| Resolved::new(request.reply(), shape))
-                .collect(),
-            Format::Bus => bus::Operation::ALL
-                .iter()
-                .map(|operation| Resolved::new(operation.reply(), shape))
-                .collect(),
-        };
+        let layouts = (profile.format.manual().layouts)(&profile, shape);
         let layouts = match profile.medium() {
             Medium::Bits => layouts,
             Medium::Bytes | Medium::Text => layouts.into_iter().map(Resolved::sieved).collect(),

@@ -29,6 +29,7 @@ pub(crate) use weigh::weigh;
 use crate::{
     dump::{self, Dump},
     format::Medium,
+    language::msg,
     profile::Profile,
     record::Record,
 };
@@ -70,10 +71,10 @@ impl Verdict {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Certain => "certain",
-            Self::Likely => "likely",
-            Self::Ambiguous => "ambiguous",
-            Self::Unlikely => "unlikely",
+            Self::Certain => msg("certain"),
+            Self::Likely => msg("likely"),
+            Self::Ambiguous => msg("ambiguous"),
+            Self::Unlikely => msg("unlikely"),
         }
     }
 }

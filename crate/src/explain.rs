@@ -3,8 +3,10 @@
 use crate::{
     bits::{self, Bits, Span},
     format::{Format, bus::Operation, own::Own, rs485::Command, t485::Request},
+    language::{meaning, number, t},
     layout::{Active, Class, Coding, Covered, Field, Resolved, Role, Weight},
     reading::Fault,
+    text,
 };
 use alloc::{
     format,
@@ -62,13 +64,7 @@ impl Resolved {
         Note {
             name: field.row.name,
             class: field.row.role.class(),
-            doc: field
-                .row
-                .doc
-                .iter()
-                .map(|line| line.trim())
-                .collect::<Vec<_>>()
-                .join(" "),
+            doc: meaning(field.row.english()),
             raw,
             text: self.text(field, raw, bits),
             bits: self.named_bits(field, raw),
@@ -89,7 +85,7 @@ impl Resolved {
                     at: self.bit_of(field, named.place)?,
                     name: named.name,
                     set: bits::bit(field.active_high(raw), named.place),
-                    doc: named.doc,
+                    doc: t(named.doc),
                     role: named.role,
                 })
             })
@@ -103,55 +99,59 @@ impl Resolved {
         let tenths = || tenths(bits::signed(raw, field.width as usize) as i32);
         let text = match field.row.role {
             Role::Turns => {
-                format!("{} turns", grouped_signed(self.turns(raw)))
+                text!("{} {0|turn|turns}", grouped_signed(self.turns(raw)))
             }
-            Role::Angle => format!(
+            Role::Angle => text!(
                 "{} of {} → {}°",
                 grouped(raw),
                 grouped(u64::try_from(bits::codes(angle_bits)).unwrap_or(u64::MAX)),
-                degrees_text(raw, angle_bits, 4)
+                number(degrees_text(raw, angle_bits, 4))
             ),
-            Role::Error if asserted => "error: the position is not valid".into(),
-            Role::Error => "no error: the position is valid".into(),
-            Role::Warning if asserted => "warning: something is near its limit".into(),
-            Role::Warning => "no warning".into(),
-            Role::Valid if asserted => "the position is valid".into(),
-            Role::Valid => "the position is not valid".into(),
-            Role::ZeroDefault if asserted => "no zero has been set".into(),
-            Role::ZeroDefault => "a zero has been set".into(),
+            Role::Error if asserted => t("error: the position is not valid").into(),
+            Role::Error => t("no error: the position is valid").into(),
+            Role::Warning if asserted => t("warning: something is near its limit").into(),
+            Role::Warning => t("no warning").into(),
+            Role::Valid if asserted => t("the position is valid").into(),
+            Role::Valid => t("the position is not valid").into(),
+            Role::ZeroDefault if asserted => t("no zero has been set").into(),
+            Role::ZeroDefault => t("a zero has been set").into(),
             Role::Status | Role::Alarm => {
                 let set: Vec<_> = self
                     .named_bits(field, raw)
                     .iter()
                     .filter(|named| named.set)
-                    .map(|named| named.name)
+                    .map(|named| t(named.name))
                     .collect();
                 match set.is_empty() {
                     false => set.join(", "),
-                    true if field.active_high(raw) == 0 => "all well".into(),
-                    true => "bits without a name are set".into(),
+                    true if field.active_high(raw) == 0 => t("all well").into(),
+                    true => t("bits without a name are set").into(),
                 }
             }
             Role::Enid | Role::MemoryData => format!("0x{raw:02X}"),
-            Role::Speed => format!("{} rev/s", tenths()),
-            Role::Temperature => format!("{} °C", tenths()),
-            Role::Count => format!("{raw} counted"),
+            Role::Speed => text!("{} rev/s", number(tenths())),
+            Role::Temperature => text!("{} °C", number(tenths())),
+            Role::Count => text!("{} counted", raw),
             Role::Operation => self.operation(raw),
-            Role::Address => format!("device 0x{raw:02X}"),
-            Role::MemoryAddress => format!("address 0x{raw:02X}"),
+            Role::Address => text!("device 0x{}", format_args!("{raw:02X}")),
+            Role::MemoryAddress => text!("address 0x{}", format_args!("{raw:02X}")),
             Role::Crc | Role::Parity => self.check_text(field, bits),
-            Role::Padding if raw == 0 => "zero".into(),
-            Role::Padding => "not zero: the number is wider than the profile says".into(),
+            Role::Padding if raw == 0 => t("zero").into(),
+            Role::Padding => t("not zero: the number is wider than the profile says").into(),
             Role::Repeat => match self.fault(field, bits) {
-                None => "the same word again".into(),
-                Some(_) => "not the same word again".into(),
+                None => t("the same word again").into(),
+                Some(_) => t("not the same word again").into(),
             },
             Role::Framing => String::new(),
         };
         match self.coding(field) {
             Some((Coding::Gray, _)) => {
                 let width = field.width as usize;
-                format!("{text} (Gray {:0width$b})", self.wire(field, bits))
+                text!(
+                    "{} (Gray {})",
+                    text,
+                    format_args!("{:0width$b}", self.wire(field, bits))
+                )
             }
             _ => text,
         }
@@ -163,40 +163,44 @@ impl Resolved {
         let profile = &self.shape.profile;
         let known = match profile.format {
             Format::Rs485 => Command::of_byte(code)
-                .map(|command| format!("‘{}’: {}", command.letter(), command.title())),
+                .map(|command| text!("‘{}’: {}", command.letter(), t(command.title()))),
             Format::T485 => Request::of_operation(code)
-                .map(|request| format!("0x{:02X}: {}", request.byte(), request.title())),
+                .map(|request| format!("0x{:02X}: {}", request.byte(), t(request.title()))),
             Format::Bus => Operation::of_code(code)
-                .map(|operation| format!("{code:02b}: {}", operation.title())),
+                .map(|operation| format!("{code:02b}: {}", t(operation.title()))),
             _ => profile
                 .own
                 .and_then(Own::request)
                 .filter(|byte| *byte == code)
-                .map(|byte| format!("0x{byte:02X}: what the encoder answers to")),
+                .map(|byte| format!("0x{byte:02X}: {}", t("what the encoder answers to"))),
         };
-        known.unwrap_or_else(|| format!("operation {raw}, which is not known"))
+        known.unwrap_or_else(|| text!("operation {}, which is not known", raw))
     }
 
     fn check_text(&self, field: &Field, bits: Bits<'_>) -> String {
         let (Some((sum, covered)), Some(checked)) = (field.cover, self.checked(field, bits)) else {
             return String::new();
         };
-        let name = sum.name();
+        let name = sum.title();
         let over = match covered {
-            Covered::Run(span) => format!("over {} bits", span.len),
-            Covered::Frame => format!("over {} bits with its own as 0", self.len),
+            Covered::Run(span) => text!("over {} bits", span.len),
+            Covered::Frame => text!("over {} bits with its own as 0", self.len),
         };
         let open = match field.row.weight {
-            Weight::Advisory if !checked.ok() => "; the manual leaves this rule open",
+            Weight::Advisory if !checked.ok() => t("; the manual leaves this rule open"),
             _ => "",
         };
-        let verdict = if checked.ok() { "holds" } else { "fails" };
+        let verdict = if checked.ok() { t("holds") } else { t("fails") };
         if sum.width() == 1 {
             format!("{verdict}: {name} {over}{open}")
         } else {
-            format!(
-                "{verdict}: computed 0x{:02X}, {name}, {over}{open}",
-                checked.expected
+            text!(
+                "{}: computed 0x{}, {}, {}{}",
+                verdict,
+                format_args!("{:02X}", checked.expected),
+                name,
+                over,
+                open
             )
         }
     }
@@ -211,8 +215,10 @@ impl Resolved {
 /// ```
 #[must_use]
 pub fn degrees_text(angle: u64, angle_bits: u32, places: u32) -> String {
-    let unit = 10u128.pow(places.min(12));
-    let scaled = u128::from(angle) * 360 * unit / bits::codes(angle_bits);
+    let unit = 10u64.pow(places.min(12));
+    // Less than 360 × 10¹², which leaves room.
+    let scaled = u128::from(angle) * 360 * u128::from(unit);
+    let scaled = (scaled >> angle_bits.min(64)) as u64;
     let (whole, part) = (scaled / unit, scaled % unit);
     match places.min(12) as usize {
         0 => whole.to_string(),

@@ -10,7 +10,7 @@ mod rust;
 pub mod table;
 mod text;
 
-use crate::{check::Algorithm, decode::Decoder};
+use crate::{check::Algorithm, decode::Decoder, language::in_english};
 use alloc::string::String;
 use plan::Plan;
 
@@ -61,12 +61,14 @@ impl Language {
 /// ```
 #[must_use]
 pub fn source(decoder: &Decoder, language: Language) -> String {
-    let plan = Plan::new(decoder);
-    match language {
-        Language::C => c::source(&plan),
-        Language::Rust => rust::source(&plan),
-        Language::Python => python::source(&plan),
-    }
+    in_english(|| {
+        let plan = Plan::new(decoder);
+        match language {
+            Language::C => c::source(&plan),
+            Language::Rust => rust::source(&plan),
+            Language::Python => python::source(&plan),
+        }
+    })
 }
 
 /// A function that computes a CRC over bytes.
@@ -78,10 +80,10 @@ pub fn source(decoder: &Decoder, language: Language) -> String {
 /// ```
 #[must_use]
 pub fn crc_source(algorithm: &Algorithm, language: Language) -> String {
-    let lines = match language {
+    let lines = in_english(|| match language {
         Language::C => c::crc(algorithm, plan::Reach::Bytes),
         Language::Rust => rust::crc(algorithm, plan::Reach::Bytes),
         Language::Python => python::crc(algorithm, plan::Reach::Bytes),
-    };
+    });
     text::joined(&lines)
 }

@@ -1,53 +1,81 @@
 //! The wire formats, one manual page a file.
 //!
-//! To add a format, write its file: a [`Spec`] with its name, parameters and limits, its layout
-//! tables, and how its frames are told apart; then name it in [`Format`].
+//! To add a format, write its file: a [`Spec`] with its name, parameters and limits, a [`Manual`]
+//! with its layouts and an example; then name the file in [`Format`]'s list.
 
-pub mod asi1;
-pub mod asi4;
-pub mod biss_c;
-pub mod bus;
-pub mod own;
-pub mod period;
-pub mod rs485;
-pub mod ssi;
-pub mod ssi7;
-pub mod ssi_tree;
-pub mod t485;
 pub mod timing;
 
 use crate::{
-    layout::{StatusBit, layout},
+    language::msg,
+    layout::{Layout, Resolved, Shape, StatusBit, layout},
     profile::Profile,
 };
 use alloc::{string::String, vec::Vec};
 use timing::Timing;
 
-/// A wire format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+/// Formats, each with its module, in the order of their pages in the manuals.
+macro_rules! formats {
+    ($($(#[$doc:meta])* $name:ident $module:ident),*; $(#[$own_doc:meta])* $own:ident $own_module:ident) => {
+        $(pub mod $module;)*
+        pub mod $own_module;
+
+        /// A wire format.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Format {
+            $($(#[$doc])* $name,)*
+            $(#[$own_doc])* $own,
+        }
+
+        impl Format {
+            /// All formats of the manuals, in the order of their pages.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+
+            /// What is to be known of the format before any frame.
+            #[must_use]
+            pub const fn spec(self) -> &'static Spec {
+                match self {
+                    $(Self::$name => &$module::SPEC,)*
+                    Self::$own => &$own_module::SPEC,
+                }
+            }
+
+            /// What its manual says of it.
+            #[must_use]
+            pub const fn manual(self) -> &'static Manual {
+                match self {
+                    $(Self::$name => &$module::MANUAL,)*
+                    Self::$own => &$own_module::MANUAL,
+                }
+            }
+        }
+    };
+}
+
+formats! {
     /// MPP and PT SSI: [`ssi`].
-    Ssi,
+    Ssi ssi,
     /// BiSS-C: [`biss_c`].
-    BissC,
+    BissC biss_c,
     /// MPP and PT commands over RS485 and RS422: [`rs485`].
-    Rs485,
+    Rs485 rs485,
     /// Tamagawa-compatible T485: [`t485`].
-    T485,
+    T485 t485,
     /// MPP and PT high-speed bus: [`bus`].
-    Bus,
+    Bus bus,
     /// MPP and PT free-running: [`period`].
-    Period,
+    Period period,
     /// IP-75 binary stream: [`asi1`].
-    Asi1,
+    Asi1 asi1,
     /// IP-75 text stream: [`asi4`].
-    Asi4,
+    Asi4 asi4,
     /// IP-75 SSI: [`ssi7`].
-    Ssi7,
+    Ssi7 ssi7,
     /// Pepperl+Fuchs and the classic SSI word: [`ssi_tree`].
-    SsiTree,
+    SsiTree ssi_tree,
+    /// The SPI word of AS5047 and AS5048: [`as5048`].
+    As5048 as5048;
     /// A layout of the user's own: [`own`].
-    Own,
+    Own own
 }
 
 /// How frames come.
@@ -92,10 +120,6 @@ pub struct Spec {
     pub name: &'static str,
     /// The name for people.
     pub title: &'static str,
-    /// What it is, in a few words.
-    pub about: &'static str,
-    /// The manual it comes from, and the place in it.
-    pub source: &'static str,
     /// How frames come.
     pub link: Link,
     /// The names of the parameters that matter.
@@ -104,43 +128,31 @@ pub struct Spec {
     pub quantities: &'static [&'static str],
     /// How wide the numbers can be.
     pub limits: Limits,
+    /// Microseconds from one frame of a stream to the next.
+    pub interval: Option<u64>,
     /// What omitted parameters are: the widest encoder of the manual that speaks the format.
     pub default: Profile,
 }
 
+/// What a manual says of a format: how its frames are laid out, and what is to be read about them.
+/// It stands apart from the [`Spec`], which every program needs first.
+#[derive(Clone, Copy, Debug)]
+pub struct Manual {
+    /// What it is, in a few words.
+    pub about: &'static str,
+    /// The manual it comes from, and the place in it.
+    pub source: &'static str,
+    /// What its manual asks of clock and pause, where a master clocks the frames out.
+    pub timing: Option<&'static Timing>,
+    /// A dump of a few frames, from public captures and the manual's rules.
+    pub example: &'static str,
+    /// Profiles that detection tries, where it has no way of its own of making them.
+    pub guesses: &'static [Profile],
+    /// The layouts of the frames that a profile has.
+    pub layouts: fn(&Profile, Shape) -> Vec<Resolved>,
+}
+
 impl Format {
-    /// All formats of the manuals, in the order of their pages.
-    pub const ALL: &[Self] = &[
-        Self::Ssi,
-        Self::BissC,
-        Self::Rs485,
-        Self::T485,
-        Self::Bus,
-        Self::Period,
-        Self::Asi1,
-        Self::Asi4,
-        Self::Ssi7,
-        Self::SsiTree,
-    ];
-
-    /// What is to be known of the format before any frame.
-    #[must_use]
-    pub const fn spec(self) -> &'static Spec {
-        match self {
-            Self::Ssi => &ssi::SPEC,
-            Self::BissC => &biss_c::SPEC,
-            Self::Rs485 => &rs485::SPEC,
-            Self::T485 => &t485::SPEC,
-            Self::Bus => &bus::SPEC,
-            Self::Period => &period::SPEC,
-            Self::Asi1 => &asi1::SPEC,
-            Self::Asi4 => &asi4::SPEC,
-            Self::Ssi7 => &ssi7::SPEC,
-            Self::SsiTree => &ssi_tree::SPEC,
-            Self::Own => &own::SPEC,
-        }
-    }
-
     /// The name in parameters and links.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -173,25 +185,13 @@ impl Format {
     /// Microseconds from one frame of a stream to the next.
     #[must_use]
     pub const fn interval(self) -> Option<u64> {
-        match self {
-            Self::Period => Some(period::INTERVAL),
-            Self::Asi1 => Some(asi1::INTERVAL),
-            Self::Asi4 => Some(asi4::INTERVAL),
-            Self::Own => Some(own::INTERVAL),
-            _ => None,
-        }
+        self.spec().interval
     }
 
     /// What its manual asks of clock and pause, where a master clocks the frames out.
     #[must_use]
     pub const fn timing(self) -> Option<&'static Timing> {
-        match self {
-            Self::Ssi => Some(&ssi::TIMING),
-            Self::BissC => Some(&biss_c::TIMING),
-            Self::Ssi7 => Some(&ssi7::TIMING),
-            Self::SsiTree => Some(&ssi_tree::TIMING),
-            _ => None,
-        }
+        self.manual().timing
     }
 
     /// The names of the parameters that matter to this format.
@@ -219,7 +219,17 @@ pub const TIMES: u8 = 10;
 
 /// What only the reference says, left out where a program must be small.
 pub(crate) const fn said(text: &'static str) -> &'static str {
-    if cfg!(feature = "small") { "" } else { text }
+    spared(text)
+}
+
+/// What is no text, left out where a program must be small.
+pub(crate) const fn spared(data: &'static str) -> &'static str {
+    if cfg!(feature = "small") { "" } else { data }
+}
+
+/// The only layout of a format.
+fn one(layout: &'static Layout, shape: Shape) -> Vec<Resolved> {
+    Vec::from([Resolved::new(layout, shape)])
 }
 
 /// Bits above the angle in the two bytes, or above 16 bits per turn three, that RS485, RS422,
@@ -272,38 +282,42 @@ pub fn blinks(name: &str) -> bool {
 pub static STATUS: &[StatusBit] = &[
     StatusBit {
         place: 5,
-        name: "battery disconnected",
-        doc: "the turn counter was lost and restarted from 0; check the battery, then power-cycle",
+        name: msg("battery disconnected"),
+        doc: msg(
+            "the turn counter was lost and restarted from 0; check the battery, then power-cycle",
+        ),
         role: None,
     },
     StatusBit {
         place: 4,
-        name: "battery low",
-        doc: "below 2.9 V the turns are still good, below 2.7 V not; replace the battery",
+        name: msg("battery low"),
+        doc: msg("below 2.9 V the turns are still good, below 2.7 V not; replace the battery"),
         role: None,
     },
     StatusBit {
         place: 3,
-        name: "field too strong",
-        doc: "the rotor is too close to the stator or a magnet is near; check the mounting gap",
+        name: msg("field too strong"),
+        doc: msg(
+            "the rotor is too close to the stator or a magnet is near; check the mounting gap",
+        ),
         role: None,
     },
     StatusBit {
         place: 2,
-        name: "field too weak",
-        doc: "the rotor is too far from the stator; check the mounting gap",
+        name: msg("field too weak"),
+        doc: msg("the rotor is too far from the stator; check the mounting gap"),
         role: None,
     },
     StatusBit {
         place: 1,
-        name: "temperature out of range",
-        doc: "the encoder is hotter or colder than its order code allows",
+        name: msg("temperature out of range"),
+        doc: msg("the encoder is hotter or colder than its order code allows"),
         role: None,
     },
     StatusBit {
         place: 0,
-        name: "overspeed",
-        doc: "the shaft turns faster than the encoder can follow; slow down",
+        name: msg("overspeed"),
+        doc: msg("the shaft turns faster than the encoder can follow; slow down"),
         role: None,
     },
 ];

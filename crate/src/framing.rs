@@ -23,7 +23,10 @@ mod evidence;
 mod text;
 mod weigh;
 
-use crate::{bits::Bits, decode::Decoder, format::Format, layout::Resolved, reading::Reading};
+use crate::{
+    bits::Bits, decode::Decoder, format::Format, language::t, layout::Resolved, reading::Reading,
+    say,
+};
 use alloc::vec::Vec;
 use core::fmt;
 use evidence::{Position, WINDOW};
@@ -110,10 +113,10 @@ pub enum Why {
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Request => f.write_str("request"),
-            Self::NoFrame => f.write_str("no frame"),
-            Self::Unasked => f.write_str("came unasked"),
-            Self::Truncated { have, need } => write!(f, "{have} of {need}"),
+            Self::Request => f.write_str(t("request")),
+            Self::NoFrame => f.write_str(t("no frame")),
+            Self::Unasked => f.write_str(t("came unasked")),
+            Self::Truncated { have, need } => say!(f, "{} of {}", have, need),
         }
     }
 }

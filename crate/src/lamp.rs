@@ -17,8 +17,10 @@ use crate::{
     bits,
     calculator::Fault,
     format::{STATUS, blinks},
+    language::{msg, t},
     layout::StatusBit,
     product::Series,
+    text,
 };
 use alloc::{
     format,
@@ -47,21 +49,21 @@ impl Light {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Green => "green",
-            Self::Yellow => "yellow",
-            Self::Red => "red",
-            Self::Dark => "dark",
+            Self::Green => msg("green"),
+            Self::Yellow => msg("yellow"),
+            Self::Red => msg("red"),
+            Self::Dark => msg("dark"),
         }
     }
 
     /// What it says of the data (MPP and PT, "Status bits").
     #[must_use]
-    pub const fn meaning(self) -> &'static str {
+    pub fn meaning(self) -> &'static str {
         match self {
-            Self::Green => "green",
-            Self::Yellow => "yellow: the position is valid, something is near its limit",
-            Self::Red => "red: the position is not valid",
-            Self::Dark => "dark: most likely the encoder has no supply",
+            Self::Green => t("green"),
+            Self::Yellow => t("yellow: the position is valid, something is near its limit"),
+            Self::Red => t("red: the position is not valid"),
+            Self::Dark => t("dark: most likely the encoder has no supply"),
         }
     }
 }
@@ -139,21 +141,25 @@ pub static BATTERY: [BatteryBit; 2] = [
     BatteryBit {
         place: 5,
         warning: None,
-        error: "while the supply was off the battery was disconnected or too low: the turns were \
+        error: msg(
+            "while the supply was off the battery was disconnected or too low: the turns were \
                 lost and have restarted from 0",
-        remedy: "check the mounting and the voltage of the battery, then switch the encoder off \
+        ),
+        remedy: msg(
+            "check the mounting and the voltage of the battery, then switch the encoder off \
                  and on, which clears the bit",
+        ),
     },
     BatteryBit {
         place: 4,
-        warning: Some("the battery is below 2.9 V"),
-        error: "the battery is below 2.7 V",
-        remedy: "replace the battery",
+        warning: Some(msg("the battery is below 2.9 V")),
+        error: msg("the battery is below 2.7 V"),
+        remedy: msg("replace the battery"),
     },
 ];
 
-const NEAR: &str = "near its limit: the position is still valid";
-const BEYOND: &str = "beyond its limit: the position is not valid";
+const NEAR: &str = msg("near its limit: the position is still valid");
+const BEYOND: &str = msg("beyond its limit: the position is not valid");
 
 impl Health {
     /// The health in a status byte.
@@ -201,8 +207,8 @@ impl Health {
         byte.map(Self::of_byte).ok_or_else(|| Fault {
             input: "status",
             message: match plain.is_empty() {
-                true => "no status byte is given".to_string(),
-                false => format!(
+                true => t("no status byte is given").to_string(),
+                false => text!(
                     "\"{}\" is no status byte: eight bits, b7 first, or two hex digits",
                     text.trim()
                 ),
@@ -250,12 +256,12 @@ impl Health {
             remedy: "",
         };
         let flags = [
-            flag(7, "error", self.error, "the position is not valid"),
+            flag(7, "error", self.error, t("the position is not valid")),
             flag(
                 6,
                 "warning",
                 self.warning,
-                "the position is valid, but something is near its limit",
+                t("the position is valid, but something is near its limit"),
             ),
         ];
         let light = match self.error {
@@ -268,7 +274,7 @@ impl Health {
                 place: bit.place,
                 name: bit.name,
                 set: bits::bit(self.status.into(), bit.place),
-                text: cause.map_or("never comes with a warning alone", |cause| cause.text),
+                text: cause.map_or(t("never comes with a warning alone"), |cause| cause.text),
                 remedy: cause.map_or(bit.doc, |cause| cause.remedy),
             }
         });
@@ -281,17 +287,23 @@ impl Health {
         let mut odd = Vec::new();
         let flagged = self.error || self.warning;
         if self.status != 0 && !flagged {
-            odd.push("a status bit is set without error or warning: the manuals name no such case");
+            odd.push(t(
+                "a status bit is set without error or warning: the manuals name no such case",
+            ));
         }
         if self.status == 0 && flagged {
-            odd.push("error or warning without a status bit: nothing names the reason");
+            odd.push(t(
+                "error or warning without a status bit: nothing names the reason",
+            ));
         }
         let lost = bits::bit(self.status.into(), 5);
         if lost && self.warning && !self.error {
-            odd.push("battery disconnected comes with the error bit, never with a warning alone");
+            odd.push(t(
+                "battery disconnected comes with the error bit, never with a warning alone",
+            ));
         }
         if self.error && self.warning {
-            odd.push("error and warning together: the manuals do not name the colour; an error counts more");
+            odd.push(t("error and warning together: the manuals do not name the colour; an error counts more"));
         }
         odd
     }
@@ -321,12 +333,12 @@ impl Lamp {
         let found = Light::ALL.into_iter().find(|known| known.name() == light);
         let names = || Light::ALL.map(Light::name).join(", ");
         let light =
-            found.ok_or_else(|| fault("lamp", format!("\"{light}\" is none of {}", names())))?;
+            found.ok_or_else(|| fault("lamp", text!("\"{}\" is none of {}", light, names())))?;
         let rhythm = match blinking {
             "yes" => Rhythm::Blinking,
             "no" => Rhythm::Steady,
             _ => {
-                let message = format!("\"{blinking}\" is neither yes nor no");
+                let message = text!("\"{}\" is neither yes nor no", blinking);
                 return Err(fault("blinking", message));
             }
         };
@@ -359,13 +371,15 @@ impl Lamp {
         };
         match (self.light, self.rhythm) {
             (Light::Green, Rhythm::Blinking) => {
-                return refuse(
+                return refuse(t(
                     "green does not blink: what blinks is a warning or an error of the battery, \
                      in yellow or red",
-                );
+                ));
             }
             (Light::Dark, Rhythm::Blinking) => {
-                return refuse("a dark lamp does not blink: choose the colour in which it blinks");
+                return refuse(t(
+                    "a dark lamp does not blink: choose the colour in which it blinks",
+                ));
             }
             _ => {}
         }
@@ -376,48 +390,48 @@ impl Lamp {
 
     /// What to do at once.
     #[must_use]
-    pub const fn remedy(self) -> &'static str {
+    pub fn remedy(self) -> &'static str {
         match (self.light, self.rhythm) {
-            (Light::Green, _) => "nothing: the data are good",
+            (Light::Green, _) => t("nothing: the data are good"),
             (Light::Yellow, Rhythm::Steady) => {
-                "go on, and read the status bits: one of them is near its limit"
+                t("go on, and read the status bits: one of them is near its limit")
             }
             (Light::Yellow, Rhythm::Blinking) => {
-                "go on, and replace the battery soon: the turns are lost when it fails"
+                t("go on, and replace the battery soon: the turns are lost when it fails")
             }
             (Light::Red, Rhythm::Steady) => {
-                "do not use the position; read the status bits, which name the reason"
+                t("do not use the position; read the status bits, which name the reason")
             }
-            (Light::Red, Rhythm::Blinking) => {
+            (Light::Red, Rhythm::Blinking) => t(
                 "do not use the position; see to the battery, switch the encoder off and on, and \
-                 reference the turns anew"
-            }
-            (Light::Dark, _) => {
+                 reference the turns anew",
+            ),
+            (Light::Dark, _) => t(
                 "check the supply and its polarity at the encoder's own pins; the manuals do not \
-                 speak of a dark lamp"
-            }
+                 speak of a dark lamp",
+            ),
         }
     }
 }
 
 /// What the source of a series says of lamps and health.
 #[must_use]
-pub const fn about(series: Series) -> &'static str {
+pub fn about(series: Series) -> &'static str {
     match series {
-        Series::Mpp | Series::Pt => {
+        Series::Mpp | Series::Pt => t(
             "MPP and PT have an LED of three colours: green, yellow with the warning bit, red with \
              the error bit; it blinks once a second for the bits of the battery. In BiSS-C, says \
              PT, the error bit stands only for the battery, and the warning bit for any error or \
-             warning."
-        }
-        Series::Ip75 => {
+             warning.",
+        ),
+        Series::Ip75 => t(
             "The manual of IP-75 names no lamp. ASI1 says whether the position is valid (PV) and \
              whether a zero was set (ZPD); SSI7 has an alarm bit, and its error flag on DATA \
-             between the words; ASI4 has nothing."
-        }
-        Series::Avs58 | Series::Avm58 | Series::Ass58 | Series::Asm58 => {
+             between the words; ASI4 has nothing.",
+        ),
+        Series::Avs58 | Series::Avm58 | Series::Ass58 | Series::Asm58 => t(
             "The article on Pepperl+Fuchs encoders names neither a lamp nor status bits; a parity \
-             bit at most guards the word."
-        }
+             bit at most guards the word.",
+        ),
     }
 }

@@ -17,7 +17,7 @@ mod resolved;
 pub(crate) use fast::Glimpse;
 pub use resolved::{Coding, Covered, Field, Part, Resolved, Shape};
 
-use crate::{bits, check::Checksum};
+use crate::{bits, check::Checksum, language::meaning};
 use alloc::{string::String, vec::Vec};
 
 /// What a field means.
@@ -312,6 +312,18 @@ impl Row {
             weight: Weight::Binding,
         }
     }
+
+    /// The doc in one line, in English.
+    #[must_use]
+    pub fn english(&self) -> String {
+        joined(self.doc)
+    }
+}
+
+/// The lines of a doc as one.
+fn joined(doc: &[&str]) -> String {
+    let lines: Vec<&str> = doc.iter().map(|line| line.trim()).collect();
+    lines.join(" ")
 }
 
 /// A piece of a table: one row, or rows that form one little-endian number.
@@ -342,11 +354,8 @@ impl Layout {
     /// What the frame is, in a line.
     #[must_use]
     pub fn title(&self) -> String {
-        let lines: Vec<&str> = self.doc.iter().map(|line| line.trim()).collect();
-        lines
-            .join(" ")
-            .trim_end_matches('.')
-            .replace(['`', '*'], "")
+        let line = joined(self.doc);
+        meaning(line.trim_end_matches('.').replace(['`', '*'], ""))
     }
 }
 

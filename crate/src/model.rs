@@ -18,11 +18,12 @@ pub use form::{Form, Part, Place, Says, Token, Word};
 pub use tables::FORMS;
 
 use crate::{
+    language::{msg, t},
     product::{Interface, Series},
     profile::Profile,
+    say, text,
 };
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -71,10 +72,11 @@ pub struct ModelError {
 
 impl fmt::Display for ModelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
+        say!(
             f,
             "part {} of the order code: {}",
-            self.position, self.message
+            self.position,
+            self.message
         )
     }
 }
@@ -174,21 +176,21 @@ pub fn look(code: &str) -> Vec<Look> {
 
 /// What does not go together (MPP and PT: T485 note 2, BUS versions and example, baud codes).
 pub const RULES: [&str; 4] = [T485_ONLY, BUS_ONLY, M1_ONLY, BAUD_ONLY];
-const T485_ONLY: &str = "T485 comes with 17M, 17BM, 17FM, 23M, 23BM or 23FM only";
-const BUS_ONLY: &str = "BUS comes without a turn counter or with M; BM and FM do not exist";
-const M1_ONLY: &str = "M1 exists with BUS only; nothing, M, BM or FM fits";
-const BAUD_ONLY: &str = "only RS485 and RS422, letters R and A, have a baud code; M fits";
+const T485_ONLY: &str = msg("T485 comes with 17M, 17BM, 17FM, 23M, 23BM or 23FM only");
+const BUS_ONLY: &str = msg("BUS comes without a turn counter or with M; BM and FM do not exist");
+const M1_ONLY: &str = msg("M1 exists with BUS only; nothing, M, BM or FM fits");
+const BAUD_ONLY: &str = msg("only RS485 and RS422, letters R and A, have a baud code; M fits");
 
 /// Only the smallest program has no room for the words.
 const IS_TERSE: bool = cfg!(feature = "small");
 
 fn no_series(first: &str) -> ModelError {
     let message = match (IS_TERSE, first) {
-        (true, _) => "does not fit".to_string(),
-        (_, "") => "is missing".to_string(),
+        (true, _) => t("does not fit").to_string(),
+        (_, "") => t("is missing").to_string(),
         (_, first) => {
             let series: Vec<_> = Form::series().collect();
-            format!("\"{first}\" is no series; {} fit", series.join(", "))
+            text!("\"{}\" is no series; {} fit", first, series.join(", "))
         }
     };
     ModelError {
@@ -201,14 +203,15 @@ fn no_series(first: &str) -> ModelError {
 fn read(part: Option<&'static Part>, text: Option<&str>, count: usize) -> Result<Token, String> {
     let found = part.and_then(|part| part.read(text.or(part.missing)?));
     found.ok_or_else(|| match (IS_TERSE, part, text) {
-        (true, ..) => "does not fit".to_string(),
-        (_, None, text) => format!(
-            "\"{}\" is one too many: the code has {count} parts",
-            text.unwrap_or_default()
+        (true, ..) => t("does not fit").to_string(),
+        (_, None, text) => text!(
+            "\"{}\" is one too many: the code has {} parts",
+            text.unwrap_or_default(),
+            count
         ),
-        (_, Some(part), None) => format!("the {} is missing; {}", part.place.name(), part.fits()),
+        (_, Some(part), None) => text!("the {} is missing; {}", part.place.name(), part.fits()),
         (_, Some(part), Some(text)) => {
-            format!("\"{text}\" is no {}; {}", part.place.name(), part.fits())
+            text!("\"{}\" is no {}; {}", text, part.place.name(), part.fits())
         }
     })
 }
@@ -249,7 +252,7 @@ impl Form {
                 let at = self.parts.iter().position(|part| part.place == place);
                 Err(ModelError {
                     position: at.unwrap_or_default() + 1,
-                    message: if IS_TERSE { "does not fit" } else { why }.to_string(),
+                    message: if IS_TERSE { t("does not fit") } else { t(why) }.to_string(),
                 })
             }
         }

@@ -15,6 +15,7 @@ mod by_wire;
 
 use crate::{
     calculator::Fault,
+    language::{msg, t},
     product::{Interface, Series},
     profile::Profile,
     sequence::Change,
@@ -100,58 +101,62 @@ impl Step {
             expect: expect.into(),
             sends: Vec::new(),
             times: 0,
-            source,
+            source: t(source),
         }
     }
 }
 
 const STILL: (&str, &str) = (
-    "Turn the shaft to where the zero is to be, and hold it there.",
-    "the angle repeats to ±1 bit",
+    msg("Turn the shaft to where the zero is to be, and hold it there."),
+    msg("the angle repeats to ±1 bit"),
 );
 
 /// Where the encoder only sends, the controller takes the zero off.
 fn offset(interface: Interface) -> Zero {
     let source = match interface {
-        Interface::Period => "MPP and PT, PERIOD",
-        Interface::BissC => "MPP and PT, BiSS-C",
-        _ => "MPP and PT, SSI",
+        Interface::Period => t("MPP and PT, PERIOD"),
+        Interface::BissC => t("MPP and PT, BiSS-C"),
+        _ => t("MPP and PT, SSI"),
     };
     let text = match interface {
-        Interface::Period => {
+        Interface::Period => t(
             "PERIOD listens to nothing on RX, so no command can set the zero. The manuals name no \
-             other way."
-        }
-        _ => "The manuals name no command and no input that sets the zero with this interface.",
+             other way.",
+        ),
+        _ => t("The manuals name no command and no input that sets the zero with this interface."),
     };
     let missing = [
         Missing { text, source },
         Missing {
-            text: "Where the encoder itself must hold the zero, order it with R (RS485), A \
+            text: t(
+                "Where the encoder itself must hold the zero, order it with R (RS485), A \
                    (RS422) or D (BUS): those store it by command. T (T485) has a command too, but \
                    the manuals do not say that it is kept without power.",
-            source: "MPP and PT, order code",
+            ),
+            source: t("MPP and PT, order code"),
         },
     ];
-    let arithmetic = "arithmetic; MPP and PT, data format";
+    let arithmetic = t("arithmetic; MPP and PT, data format");
     let steps = [
-        Step::by_hand(STILL.0, STILL.1, "MPP and PT, repeatability"),
+        Step::by_hand(t(STILL.0), t(STILL.1), t("MPP and PT, repeatability")),
         Step::by_hand(
-            "Read the position and store it in the controller as the offset Z: the angle, or \
+            t(
+                "Read the position and store it in the controller as the offset Z: the angle, or \
              turns and angle as one number where turns are counted.",
-            "the offset is kept without power",
+            ),
+            t("the offset is kept without power"),
             arithmetic,
         ),
         Step::by_hand(
-            "Subtract Z from every position, modulo 2 to the number of bits.",
-            "0 at the place of the zero, and no jump elsewhere",
+            t("Subtract Z from every position, modulo 2 to the number of bits."),
+            t("0 at the place of the zero, and no jump elsewhere"),
             arithmetic,
         ),
     ];
     let procedure = Procedure {
         name: "offset",
-        title: "In the controller",
-        about: "The encoder keeps its zero; the controller takes an offset off.",
+        title: t("In the controller"),
+        about: t("The encoder keeps its zero; the controller takes an offset off."),
         steps: steps.into(),
         notes: Vec::new(),
         change: None,

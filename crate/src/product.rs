@@ -3,7 +3,7 @@
 pub mod facts;
 pub mod sizes;
 
-use crate::format::Format;
+use crate::{format::Format, language::msg};
 
 /// A series of encoders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +69,7 @@ impl Series {
         match self {
             Self::Mpp => "MPP",
             Self::Pt => "PT",
-            Self::Ip75 => "IP-75",
+            Self::Ip75 => msg("IP-75"),
             Self::Avs58 => "AVS58",
             Self::Avm58 => "AVM58",
             Self::Ass58 => "ASS58",

@@ -18,11 +18,12 @@ use crate::{
         rs485::Command,
         ssi_tree,
     },
+    language::t,
     model,
     record::Value,
+    text,
 };
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -129,14 +130,14 @@ impl Profile {
     /// The name of the format for people; of the user's own layouts their title.
     #[must_use]
     pub fn title(&self) -> &'static str {
-        self.own.map_or(self.format.title(), Own::title)
+        self.own.map_or(t(self.format.title()), Own::title)
     }
 
     /// The manual that describes the format, and the place in it.
     #[must_use]
     pub fn source(&self) -> &'static str {
         let source = self.own.and_then(Own::source);
-        source.unwrap_or(self.format.spec().source)
+        source.unwrap_or(self.format.manual().source)
     }
 
     /// How frames come.
@@ -190,14 +191,14 @@ impl Profile {
                 .ok_or_else(|| {
                     error(
                         "format",
-                        format!("\"{name}\" is not known; known: {}", Format::names()),
+                        text!("\"{}\" is not known; known: {}", name, Format::names()),
                     )
                 })?
                 .default_profile(),
             (None, None) => {
                 return Err(error(
                     "format",
-                    format!("is missing; known: {}", Format::names()),
+                    text!("is missing; known: {}", Format::names()),
                 ));
             }
         };
@@ -255,7 +256,7 @@ impl Profile {
     }
 
     fn set(&mut self, name: &str, value: &str) -> Result<(), ProfileError> {
-        let set = setter(name).ok_or_else(|| error(name, "is no parameter of a profile"))?;
+        let set = setter(name).ok_or_else(|| error(name, t("is no parameter of a profile")))?;
         set(self, value).map_err(|message| error(name, message))
     }
 
@@ -345,15 +346,15 @@ impl Profile {
             return Err(match self.own {
                 None => error(
                     "layout",
-                    format!("is missing; write one, or one of: {}", own::names()),
+                    text!("is missing; write one, or one of: {}", own::names()),
                 ),
-                Some(_) => error("layout", format!("is not for {}", self.format.title())),
+                Some(_) => error("layout", text!("is not for {}", t(self.format.title()))),
             });
         }
         if let Some(own) = self.own
             && let Some((name, bits)) = own.differs(self)
         {
-            return Err(error(name, format!("are {bits} in the layout")));
+            return Err(error(name, text!("are {} in the layout", bits)));
         }
         let limits = self.format.limits();
         let numbers = [
@@ -371,19 +372,25 @@ impl Profile {
             {
                 return Err(error(
                     name,
-                    format!("{value} is not in {low}…{high} of {}", self.format.title()),
+                    text!(
+                        "{} is not in {}…{} of {}",
+                        value,
+                        low,
+                        high,
+                        t(self.format.title())
+                    ),
                 ));
             }
         }
         if self.angle_bits + self.turns_bits > limits.together {
             return Err(error(
                 "turns-bits",
-                format!(
+                text!(
                     "{} and {} bits of angle exceed the {} of {}",
                     self.turns_bits,
                     self.angle_bits,
                     limits.together,
-                    self.format.title()
+                    t(self.format.title())
                 ),
             ));
         }

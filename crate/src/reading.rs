@@ -1,13 +1,16 @@
 //! What a frame says: [`Values`] are all its numbers as they were sent, good or bad;
 //! a [`Reading`] exists only where every check of the frame holds.
 
+mod fault;
+
+pub use fault::{Fault, FaultKind};
+
 use crate::{
     bits::{self, BitString, Bits, Span},
-    layout::{Active, Coding, Field, Resolved, Role, StatusBit},
+    layout::{Active, Field, Resolved, Role, StatusBit},
     profile::TurnsCode,
 };
 use alloc::vec::Vec;
-use core::fmt;
 
 /// A check field: what was received, and what the covered bits give.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,102 +106,6 @@ pub fn degrees(angle: u64, angle_bits: u32) -> f64 {
     degrees.min(360.0f64.next_down())
 }
 
-/// What is wrong with a frame, and where.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fault {
-    /// The bits of the frame that show it.
-    pub at: Span,
-    /// What is wrong.
-    pub kind: FaultKind,
-}
-
-/// Kinds of faults.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FaultKind {
-    /// A CRC or parity does not hold.
-    Check {
-        /// Name of the field.
-        name: &'static str,
-        /// The numbers.
-        checked: Checked,
-    },
-    /// A fixed field has another value.
-    Constant {
-        /// Name of the field.
-        name: &'static str,
-        /// What it must be.
-        expected: u64,
-        /// What it is.
-        received: u64,
-    },
-    /// The bits above a right-aligned number are not zero: the number is wider than asked for.
-    Wider {
-        /// Name of the padding.
-        name: &'static str,
-    },
-    /// Bits that are always 0 are not.
-    Zeros {
-        /// Name of the field.
-        name: &'static str,
-    },
-    /// A number in text has other characters than digits.
-    Digits {
-        /// Name of the field.
-        name: &'static str,
-    },
-    /// A number in text is larger than the widest one.
-    Range {
-        /// Name of the field.
-        name: &'static str,
-        /// The number.
-        value: u64,
-        /// The largest it can be.
-        most: u64,
-    },
-    /// A repeated word is not the first one again.
-    Repeat {
-        /// Which word, counted from 1.
-        word: u32,
-    },
-    /// The frame's place is not certain: another phase of the stream passes its checks as well.
-    Ambiguous,
-}
-
-impl fmt::Display for FaultKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Check { name, checked } => write!(
-                f,
-                "{name} is 0x{:02X}, the data gives 0x{:02X}",
-                checked.received, checked.expected
-            ),
-            Self::Constant {
-                name,
-                expected,
-                received,
-            } => {
-                write!(f, "{name} is {received:b}, must be {expected:b}")
-            }
-            Self::Wider { name } => write!(
-                f,
-                "{name} is not 0: the number is wider than the profile says"
-            ),
-            Self::Zeros { name } => write!(f, "bits of {name} that are always 0 are set"),
-            Self::Digits { name } => write!(f, "{name} has characters that are no digits"),
-            Self::Range { name, value, most } => {
-                write!(f, "{name} is {value}, the largest is {most}")
-            }
-            Self::Repeat { word } => write!(
-                f,
-                "word {word} is not the first one again: the line disturbs the transmission"
-            ),
-            Self::Ambiguous => f.write_str(
-                "the check passes, but may do so by chance: where frames begin is not certain",
-            ),
-        }
-    }
-}
-
 impl Resolved {
     /// All numbers of a frame.
     #[must_use]
@@ -256,83 +163,6 @@ impl Resolved {
             TurnsCode::Unsigned => i64::try_from(raw).unwrap_or(i64::MAX),
             TurnsCode::Signed => bits::signed(raw, self.shape.profile.turns_bits as usize),
         }
-    }
-
-    /// Everything that is wrong with a frame; nothing for a good one.
-    #[must_use]
-    pub fn faults(&self, bits: Bits<'_>) -> Vec<Fault> {
-        if self.passes_sieve(bits) == Some(true) {
-            return Vec::new();
-        }
-        self.fields()
-            .filter_map(|field| self.fault(field, bits))
-            .collect()
-    }
-
-    /// Whether every check of the frame holds.
-    #[must_use]
-    #[inline]
-    pub fn holds(&self, bits: Bits<'_>) -> bool {
-        match self.passes_sieve(bits) {
-            Some(holds) => holds,
-            None => self.fields().all(|field| self.fault(field, bits).is_none()),
-        }
-    }
-
-    /// What is wrong with one field.
-    #[must_use]
-    pub fn fault(&self, field: &Field, bits: Bits<'_>) -> Option<Fault> {
-        let parts = self.parts(field);
-        let at = parts.first().map_or_else(Span::default, |part| part.span);
-        let kind = if field.row.role == Role::Repeat {
-            let word = self.broken_repeat(at, bits)?;
-            FaultKind::Repeat { word }
-        } else {
-            self.fault_kind(field, bits)?
-        };
-        Some(Fault { at, kind })
-    }
-
-    fn fault_kind(&self, field: &Field, bits: Bits<'_>) -> Option<FaultKind> {
-        let name = field.row.name;
-        let raw = self.read(field, bits);
-        if let Some((Coding::Decimal, text)) = self.coding(field) {
-            let most = bits::mask(self.shape.profile.angle_bits as usize);
-            return match bits.decimal(text) {
-                None => Some(FaultKind::Digits { name }),
-                Some(value) if value > most => Some(FaultKind::Range { name, value, most }),
-                Some(_) => None,
-            };
-        }
-        if let Some(expected) = field.row.constant.filter(|expected| *expected != raw) {
-            let received = raw;
-            return Some(match field.row.role {
-                Role::Padding => FaultKind::Wider { name },
-                _ => FaultKind::Constant {
-                    name,
-                    expected,
-                    received,
-                },
-            });
-        }
-        if raw & field.row.zeros != 0 {
-            return Some(FaultKind::Zeros { name });
-        }
-        let checked = self
-            .checked(field, bits)
-            .filter(|checked| field.is_binding() && !checked.ok())?;
-        Some(FaultKind::Check { name, checked })
-    }
-
-    /// Which of the words in `repeats` is not, behind a 0, the word in front of them.
-    fn broken_repeat(&self, repeats: Span, bits: Bits<'_>) -> Option<u32> {
-        let word = self.shape.profile.frame_bits as usize;
-        let first = repeats.start.checked_sub(word)?;
-        (0..self.shape.repeats).find_map(|index| {
-            let zero = repeats.start + index as usize * (word + 1);
-            let same = (0..word).all(|at| bits.bit(first + at) == bits.bit(zero + 1 + at));
-            (bits.bit(zero) || !same).then_some(index + 2)
-        })
     }
 
     /// What a check field holds and what it must hold.

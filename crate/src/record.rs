@@ -5,6 +5,7 @@
 use crate::{
     decode::{Frame, Summary},
     explain::{Note, degrees_text},
+    language::in_english,
     layout::Class,
     profile::{Profile, camel},
     reading::Checked,
@@ -218,11 +219,9 @@ impl Frame<'_> {
         let profile = &self.layout.shape.profile;
         let bits = profile.angle_bits;
         let known = profile.format.spec().quantities;
-        let faults: Vec<String> = self
-            .faults()
-            .iter()
-            .map(|fault| fault.kind.to_string())
-            .collect();
+        let faults = self.faults().into_iter();
+        let faults: Vec<String> =
+            in_english(|| faults.map(|fault| fault.kind.to_string()).collect());
         Record::new()
             .with(START, self.start)
             .with(HEX, hex(self.bits.bytes()))

@@ -23,7 +23,7 @@ mod write;
 pub use read::{Reader, Section, Unreadable, is_whole};
 pub use write::Writer;
 
-use crate::session::Micros;
+use crate::{language::msg, session::Micros};
 use alloc::{string::String, vec::Vec};
 
 /// A section is this long, in bytes, before the next one begins.
@@ -78,9 +78,9 @@ impl Purpose {
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {
-            Self::Setting => "setting",
-            Self::Scan => "scan",
-            Self::Hand => "by hand",
+            Self::Setting => msg("setting"),
+            Self::Scan => msg("scan"),
+            Self::Hand => msg("by hand"),
         }
     }
 }

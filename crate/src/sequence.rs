@@ -29,7 +29,9 @@ use crate::{
         rs485::{self, Command},
         t485::Request,
     },
+    language::{msg, t},
     profile::Profile,
+    say,
     session::Micros,
 };
 use alloc::vec::Vec;
@@ -83,8 +85,8 @@ impl Send {
             Self::T485(request) => request.title(),
             Self::Bus(operation) => operation.title(),
             Self::Address(_) => Operation::SetAddress.title(),
-            Self::NewAddress => "set address, the new one",
-            Self::GetNew => "position and status, from the new address",
+            Self::NewAddress => msg("set address, the new one"),
+            Self::GetNew => msg("position and status, from the new address"),
         }
     }
 }
@@ -105,10 +107,10 @@ pub enum Expect {
 impl fmt::Display for Expect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Reply => f.write_str("a good reply"),
-            Self::CountsRound => f.write_str("a good reply that counts the round"),
-            Self::Counts(count) => write!(f, "a good reply that counts {count}"),
-            Self::Silence => f.write_str("nothing"),
+            Self::Reply => f.write_str(t("a good reply")),
+            Self::CountsRound => f.write_str(t("a good reply that counts the round")),
+            Self::Counts(count) => say!(f, "a good reply that counts {}", count),
+            Self::Silence => f.write_str(t("nothing")),
         }
     }
 }
@@ -159,13 +161,13 @@ pub enum Proof {
 
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Count => "the encoder has counted to the end",
-            Self::Angle => "the angle read last is 0, and was not before",
-            Self::Turns => "the turns read last are 0, and were not before",
-            Self::Errors => "no error is read any more",
-            Self::Memory => "the byte read last is the one that was written",
-        })
+        f.write_str(t(match self {
+            Self::Count => msg("the encoder has counted to the end"),
+            Self::Angle => msg("the angle read last is 0, and was not before"),
+            Self::Turns => msg("the turns read last are 0, and were not before"),
+            Self::Errors => msg("no error is read any more"),
+            Self::Memory => msg("the byte read last is the one that was written"),
+        }))
     }
 }
 
@@ -174,7 +176,7 @@ const fn step(send: Send, expect: Expect) -> Step {
 }
 
 static RS485_ZERO: Script = Script {
-    title: "set zero",
+    title: msg("set zero"),
     before: step(Send::Rs485(Command::Status), Expect::Reply),
     round: &[
         step(Send::Rs485(Command::Position), Expect::Reply),
@@ -187,7 +189,7 @@ static RS485_ZERO: Script = Script {
 };
 
 static T485_RESET_ANGLE: Script = Script {
-    title: "reset angle",
+    title: msg("reset angle"),
     before: step(Send::T485(Request::Angle), Expect::Reply),
     round: &[step(Send::T485(Request::ResetAngle), Expect::Reply)],
     rounds: TIMES,
@@ -197,7 +199,7 @@ static T485_RESET_ANGLE: Script = Script {
 };
 
 static T485_RESET_TURNS: Script = Script {
-    title: "reset turns",
+    title: msg("reset turns"),
     before: step(Send::T485(Request::Turns), Expect::Reply),
     round: &[step(Send::T485(Request::ResetTurns), Expect::Reply)],
     after: step(Send::T485(Request::Turns), Expect::Reply),
@@ -206,7 +208,7 @@ static T485_RESET_TURNS: Script = Script {
 };
 
 static T485_RESET_ERRORS: Script = Script {
-    title: "reset errors",
+    title: msg("reset errors"),
     round: &[step(Send::T485(Request::ResetErrors), Expect::Reply)],
     after: step(Send::T485(Request::All), Expect::Reply),
     proof: Proof::Errors,
@@ -215,7 +217,7 @@ static T485_RESET_ERRORS: Script = Script {
 
 /// Tamagawa encoders are busy with the EEPROM for up to 18 ms.
 static T485_MEMORY: Script = Script {
-    title: "write EEPROM",
+    title: msg("write EEPROM"),
     before: step(Send::T485(Request::MemoryRead), Expect::Reply),
     round: &[step(Send::T485(Request::MemoryWrite), Expect::Reply)],
     rounds: 1,
@@ -225,7 +227,7 @@ static T485_MEMORY: Script = Script {
 };
 
 static BUS_ZERO: Script = Script {
-    title: "set zero",
+    title: msg("set zero"),
     before: step(Send::Bus(Operation::Get), Expect::Reply),
     round: &[
         step(Send::Bus(Operation::Get), Expect::Reply),
@@ -240,7 +242,7 @@ static BUS_ZERO: Script = Script {
 /// Each address is twice the count before it, so that three of them pass unanswered while the
 /// bus is in use.
 static BUS_ADDRESS: Script = Script {
-    title: "set address",
+    title: msg("set address"),
     before: step(Send::Bus(Operation::Get), Expect::Reply),
     round: &[
         step(Send::Address(0), Expect::Silence),
@@ -320,11 +322,11 @@ pub enum Holds {
 
 impl fmt::Display for Holds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::New => "the change was made",
-            Self::Old => "nothing has changed in the encoder",
-            Self::Unknown => "the encoder may have acted or not: read it, then decide",
-        })
+        f.write_str(t(match self {
+            Self::New => msg("the change was made"),
+            Self::Old => msg("nothing has changed in the encoder"),
+            Self::Unknown => msg("the encoder may have acted or not: read it, then decide"),
+        }))
     }
 }
 
@@ -353,15 +355,17 @@ pub enum Stop {
 impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoReply => f.write_str("no reply came"),
-            Self::Unasked => f.write_str("something came where nothing should"),
-            Self::BadReply => f.write_str("the reply is damaged, or somebody else is talking"),
-            Self::WrongCount { expected, received } => write!(
+            Self::NoReply => f.write_str(t("no reply came")),
+            Self::Unasked => f.write_str(t("something came where nothing should")),
+            Self::BadReply => f.write_str(t("the reply is damaged, or somebody else is talking")),
+            Self::WrongCount { expected, received } => say!(
                 f,
-                "the encoder counts {received} instead of {expected}: another command came between"
+                "the encoder counts {} instead of {}: another command came between",
+                received,
+                expected
             ),
-            Self::NotUnderstood => f.write_str("the encoder does not know this command"),
-            Self::Asked => f.write_str("it was broken off"),
+            Self::NotUnderstood => f.write_str(t("the encoder does not know this command")),
+            Self::Asked => f.write_str(t("it was broken off")),
         }
     }
 }

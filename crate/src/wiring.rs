@@ -32,6 +32,7 @@ pub use terminators::{End, OHMS, Presence, Terminator};
 
 use crate::{
     calculator::Fault,
+    language::t,
     product::{
         Interface, Series,
         facts::{CURRENT, Fact, SUPPLY},
@@ -136,23 +137,23 @@ impl Adapter {
 
     /// The name for people.
     #[must_use]
-    pub const fn title(self) -> &'static str {
+    pub fn title(self) -> &'static str {
         match self {
-            Self::TwoWire => "USB–RS485, terminator switch",
-            Self::TwoWireBare => "USB–RS485, no terminator",
-            Self::FourWire => "USB–RS422, four wires",
-            Self::Master => "SSI or BiSS master",
-            Self::Apci1710 => "APCI-1710 or CPCI-1710",
+            Self::TwoWire => t("USB–RS485, terminator switch"),
+            Self::TwoWireBare => t("USB–RS485, no terminator"),
+            Self::FourWire => t("USB–RS422, four wires"),
+            Self::Master => t("SSI or BiSS master"),
+            Self::Apci1710 => t("APCI-1710 or CPCI-1710"),
         }
     }
 
     /// The name on its box in the picture.
     #[must_use]
-    pub const fn label(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::TwoWire | Self::TwoWireBare => "USB–RS485",
             Self::FourWire => "USB–RS422",
-            Self::Master => "SSI/BiSS master",
+            Self::Master => t("SSI/BiSS master"),
             Self::Apci1710 => "APCI-1710",
         }
     }

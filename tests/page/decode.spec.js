@@ -1,6 +1,6 @@
 // The decoder and the JavaScript module, with the frames of the vectors.
 import { readFileSync } from 'node:fs';
-import { at, expect, test } from './page.js';
+import { FORMATS, at, expect, test } from './page.js';
 
 const vectors = JSON.parse(readFileSync(new URL('../vectors.json', import.meta.url)));
 const commands = { 30: '0', 31: '1', 64: 'd', 74: 't' };
@@ -150,9 +150,7 @@ for (const { id, text, profile, ...expected } of cases) {
   });
 }
 
-const formats = ['ssi', 'biss-c', 'rs485', 't485', 'bus', 'period', 'asi1', 'asi4', 'ssi7', 'ssi-tree'];
-
-for (const format of formats) {
+for (const format of FORMATS) {
   test(`the example of ${format} is read, explained and encoded again`, async ({ page }) => {
     await page.goto(`/#/decode?format=${format}`);
     await at(page, 'example').click();
@@ -247,10 +245,10 @@ test('the JavaScript module keeps its names', async ({ page }) => {
       wrongProfile: thrown(() => scope.decode({ format: 'nothing' }, '')),
     };
   });
-  expect(seen.formats).toEqual(formats);
+  expect(seen.formats).toEqual(FORMATS);
   expect(seen.back).toMatchObject({ ok: true, turns: 5, angle: 1193046, warning: true, error: false, status: 16 });
   expect(seen.notes).toEqual(['turns', 'angle', 'error', 'warning', 'status', 'crc']);
   expect(seen.model).toMatchObject({ format: 'rs485', angleBits: 24, turnsBits: 16, series: 'MPP' });
   expect(seen.wrongModel).toContain('part 6');
-  expect(seen.wrongProfile).toContain(`known: ${formats.join(' ')}`);
+  expect(seen.wrongProfile).toContain(`known: ${FORMATS.join(' ')}`);
 });

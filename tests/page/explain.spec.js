@@ -1,14 +1,12 @@
 // The explainer: every bit of every format, checks step by step, the wires, conversations.
-import { at, download, expect, test } from './page.js';
-
-const formats = ['ssi', 'biss-c', 'rs485', 't485', 'bus', 'period', 'asi1', 'asi4', 'ssi7', 'ssi-tree'];
+import { FORMATS, at, download, expect, test } from './page.js';
 
 const field = (page, name) => page.locator(`[data-testid=explain-field][data-field="${name}"]`);
 const entry = (page, name) => page.locator(`[data-testid=explain-entry][data-field="${name}"]`);
 const bit = (page, index) => page.locator(`#bit-${index}`);
 const verdict = (page) => at(page, 'explain-verdict');
 
-for (const format of formats) {
+for (const format of FORMATS) {
   test(`every bit of ${format} is flipped, and the core agrees`, async ({ page }) => {
     test.setTimeout(90_000);
     await page.goto(`/#/explain?format=${format}`);
@@ -248,7 +246,7 @@ test('pictures and WaveDrom go out and come in', async ({ page, context }) => {
 });
 
 test('a screen reader’s tree names every field and bit', async ({ page }) => {
-  for (const format of formats) {
+  for (const format of FORMATS) {
     await page.goto(`/#/explain?format=${format}`);
     await expect(verdict(page)).toHaveAttribute('data-value', 'taken');
     const names = await at(page, 'explain-field').evaluateAll((rows) => rows.map((row) => row.dataset.field));

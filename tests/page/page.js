@@ -29,6 +29,9 @@ export const test = bare.extend({
 
 export { expect };
 
+/** The formats, as programs call them. */
+export const FORMATS = ['ssi', 'biss-c', 'rs485', 't485', 'bus', 'period', 'asi1', 'asi4', 'ssi7', 'ssi-tree', 'as5048'];
+
 /** The element of a `data-testid`. */
 export const at = (page, id) => page.locator(`[data-testid="${id}"]`);
 

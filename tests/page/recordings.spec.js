@@ -237,6 +237,48 @@ test('all devices of a BUS are in a replay @serial', async ({ page }) => {
   await until(page, 'angle', (angle) => angle === 2 ** 16);
 });
 
+test('a recording that was deleted comes back when that is undone', async ({ page }) => {
+  await demo(page);
+  for (const count of [1, 2]) {
+    await record(page);
+    await stop(page);
+    await expect(at(page, 'recording')).toHaveCount(count);
+  }
+  const [newer, older] = await at(page, 'recording').evaluateAll((rows) => rows.map((row) => row.dataset.name));
+  const row = (name) => page.locator(`[data-testid="recording"][data-name="${name}"]`);
+  await row(newer).getByTestId('delete').click();
+  await expect(row(newer)).toHaveCount(0);
+  await expect(at(page, 'undelete')).toBeFocused();
+  await page.keyboard.press('Enter');
+  await expect(row(newer)).toHaveCount(1);
+  await expect(at(page, 'deleted')).toHaveCount(0);
+  // The next deletion ends the one before; what a closed page had not ended is there again.
+  await row(newer).getByTestId('delete').click();
+  await row(older).getByTestId('delete').click();
+  await expect(at(page, 'deleted')).toContainText(older);
+  await expect(at(page, 'recording')).toHaveCount(0);
+  await page.reload();
+  await at(page, 'demo').click();
+  await expect(row(older)).toHaveCount(1);
+  await expect(row(newer)).toHaveCount(0);
+});
+
+test('a deletion is done after a while', async ({ page }) => {
+  await page.clock.install();
+  await demo(page);
+  await record(page);
+  await stop(page);
+  await at(page, 'delete').click();
+  await expect(at(page, 'deleted')).toBeVisible();
+  await page.clock.runFor(21_000);
+  await expect(at(page, 'deleted')).toHaveCount(0);
+  await expect(at(page, 'recording')).toHaveCount(0);
+  await page.reload();
+  await at(page, 'demo').click();
+  await expectLink(page, 'reading');
+  await expect(page.locator('.recordings .hint')).toContainText('A recording keeps every byte');
+});
+
 test('two recordings are compared', async ({ page }) => {
   await demo(page);
   await record(page);

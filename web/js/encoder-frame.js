@@ -2,7 +2,7 @@
 // there, and where that is not allowed, the page shows what stands inside the element.
 import init, { Paper, parameters } from '../pkg/encoder-frame.js';
 import css from 'virtual:encoder-frame-style';
-import { words } from './encoder-frame/words.js';
+import { coming, voice } from './encoder-frame/words.js';
 
 // Importing it where there are no elements, as when pages are rendered by Node, does nothing.
 const { HTMLElement = class {}, customElements } = globalThis;
@@ -29,9 +29,6 @@ function make(tag, properties, ...children) {
   return element;
 }
 
-/** The name of a field for people. */
-const title = (note) => note.name.replaceAll('_', ' ');
-
 export class EncoderFrame extends HTMLElement {
   static get observedAttributes() {
     return [...parameters().split(' '), ...CONTENT, ...LOOKS];
@@ -39,7 +36,8 @@ export class EncoderFrame extends HTMLElement {
 
   #paper;
   #view;
-  #words;
+  // What says a text in the language of the element.
+  #t;
   #late = false;
   // The index of the bit that the tabulator key leads to.
   #here = 0;
@@ -76,7 +74,7 @@ export class EncoderFrame extends HTMLElement {
     if (name === 'checks') {
       this.#toggle.checked = this.checks === 'follow';
     } else if (LOOKS.includes(name)) {
-      this.#build();
+      this.#renew();
     } else if (!this.#late) {
       // One frame for all attributes that change together.
       this.#late = true;
@@ -128,15 +126,41 @@ export class EncoderFrame extends HTMLElement {
     const pairs = [...parameters().split(' '), ...CONTENT]
       .filter((name) => this.hasAttribute(name))
       .flatMap((name) => [name, this.getAttribute(name)]);
+    this.#speak();
     this.#paper?.free();
     this.#paper = new Paper(pairs.join('\0'));
     this.#build();
   }
 
+  get #lang() {
+    return this.lang || this.closest('[lang]')?.lang;
+  }
+
+  #speak() {
+    this.#t = voice(this.#lang);
+  }
+
+  /** The same frame once more, in another look or language. */
+  #renew() {
+    if (this.#view) this.#build();
+    else this.#read();
+  }
+
+  #look() {
+    this.#speak();
+    return JSON.parse(this.#paper.view());
+  }
+
+  /** The name of a field for people. */
+  #title(note) {
+    return this.#t(note.name).replaceAll('_', ' ');
+  }
+
   #build() {
-    const view = JSON.parse(this.#paper.view());
+    coming(this.#lang)?.then(() => this.#renew());
+    const view = this.#look();
+    const t = this.#t;
     this.#view = undefined;
-    this.#words = words(this.lang || this.closest('[lang]')?.lang);
     if (view.error) {
       const wrong = make('p', { className: 'box wrong', role: 'alert' }, view.error);
       this.shadowRoot.replaceChildren(make('slot'), wrong);
@@ -151,7 +175,7 @@ export class EncoderFrame extends HTMLElement {
     this.#cells = Array.from(view.bits, (_, at) => this.#cell(at, notes));
     this.#rows = notes.map((note, index) => this.#row(note, index));
     this.#verdict = make('p', { className: 'verdict', role: 'status' });
-    const bits = make('div', { className: 'bits', role: 'group', ariaLabel: this.#words.bits });
+    const bits = make('div', { className: 'bits', role: 'group', ariaLabel: t('Bits of the frame, in order of transmission') });
     if (view.clocked) {
       bits.append(...this.#cells);
     } else {
@@ -160,11 +184,11 @@ export class EncoderFrame extends HTMLElement {
       }
     }
     bits.addEventListener('keydown', (event) => this.#walk(event));
-    const fields = make('ul', { className: 'fields', ariaLabel: this.#words.fields }, ...this.#rows.map((row) => row.item));
+    const fields = make('ul', { className: 'fields', ariaLabel: t('Fields of the frame') }, ...this.#rows.map((row) => row.item));
     const box = make('div', { className: 'box' }, make('p', { className: 'title' }, view.title), bits);
     this.#toggle.checked = this.checks === 'follow';
     if (!this.readOnly && notes.some((note) => note.class === 'check')) {
-      box.append(make('label', { className: 'checks' }, this.#toggle, this.#words.follow));
+      box.append(make('label', { className: 'checks' }, this.#toggle, t('checks follow')));
     }
     box.append(this.#verdict, fields);
     box.addEventListener('pointerleave', () => this.#light());
@@ -196,11 +220,11 @@ export class EncoderFrame extends HTMLElement {
     const says = make('span', { className: 'says' });
     const fault = make('p', { className: 'fault' });
     // Leads from a field to its bits.
-    const name = make('button', { type: 'button', className: 'name' }, title(note));
+    const name = make('button', { type: 'button', className: 'name' }, this.#title(note));
     name.addEventListener('click', () => this.#cells[note.spans[0].start].focus());
     name.addEventListener('focus', () => this.#light(index));
     const bits = note.bits.map((bit) => {
-      const item = make('li', {}, make('b', {}, bit.name));
+      const item = make('li', {}, make('b', {}, this.#t(bit.name)));
       if (bit.doc) item.append(make('span', { className: 'doc' }, ` – ${bit.doc}`));
       return item;
     });
@@ -210,7 +234,7 @@ export class EncoderFrame extends HTMLElement {
       'li',
       { className: `field ${note.class}` },
       name,
-      make('small', {}, `${width} ${this.#words.bit}`),
+      make('small', {}, [width, this.#t('bit')].join(' ')),
       make('div', {}, says, list, fault, make('p', { className: 'doc' }, note.doc)),
     );
     item.addEventListener('pointerenter', () => this.#light(index));
@@ -219,11 +243,12 @@ export class EncoderFrame extends HTMLElement {
 
   /** Writes what can change while bits do: elements stay, and so does the focus. */
   #show() {
-    const view = (this.#view = JSON.parse(this.#paper.view()));
+    const view = (this.#view = this.#look());
+    const t = this.#t;
     this.#cells.forEach((cell, at) => {
       const note = view.notes[this.#owner[at]];
       cell.textContent = view.bits[at];
-      cell.ariaLabel = [`${this.#words.bit} ${at}`, note && title(note), view.bits[at]].join(', ');
+      cell.ariaLabel = [[t('bit'), at].join(' '), note && this.#title(note), view.bits[at]].join(', ');
     });
     this.#rows.forEach(({ item, says, list, fault, bits }, index) => {
       const note = view.notes[index];
@@ -235,16 +260,16 @@ export class EncoderFrame extends HTMLElement {
       bits.forEach((bit, place) => (bit.hidden = !note.bits[place].set));
       list.hidden = bits.every((bit) => bit.hidden);
     });
-    const { ok, error, warning, degrees, turns, faults } = view.record;
+    const { ok, error, warning, degrees, turns } = view.record;
     const said = ok
       ? [
-          this.#words.good,
-          degrees !== null && `${degrees}°`,
-          turns !== null && `${this.#words.turns}: ${turns}`,
-          error && this.#words.invalid,
-          warning && this.#words.warns,
+          t('good frame'),
+          degrees !== null && `${degrees}°`.replace('.', t('.')),
+          turns !== null && [t('turns'), turns].join(': '),
+          error && t('the encoder says that the position is not valid'),
+          warning && t('the encoder warns'),
         ]
-      : [this.#words.refused, ...faults];
+      : [t('refused by a receiver'), ...view.faults];
     this.#verdict.textContent = said.filter(Boolean).join('; ');
     this.#verdict.className = `verdict ${!ok ? 'bad' : error || warning ? 'warn' : 'good'}`;
   }

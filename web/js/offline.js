@@ -1,6 +1,8 @@
 // Keeps the page for visits without the network. A new version waits until the user wants it, and
 // for the end of every recording, on this page or another one of the same site.
 
+import { t } from './language.js';
+
 // Who records holds this lock with others; who takes a new version into use needs it alone.
 const LOCK = 'recording';
 const { locks, serviceWorker } = navigator;
@@ -20,17 +22,26 @@ export const recording = (runs) => {
 
 /** Says that a new version is there. */
 const show = (registration) => {
-  const button = Object.assign(document.createElement('button'), { textContent: 'Use it now' });
+  const button = document.createElement('button');
   button.dataset.testid = 'update-now';
   const why = document.createElement('span');
   const box = Object.assign(document.createElement('p'), { className: 'update', role: 'status' });
   box.dataset.testid = 'update';
-  box.append('A new version is ready. ', button, why);
-  document.querySelector('header').append(box);
+
+  /** Says it at the end of the header, which is made anew with the language. */
+  const say = () => {
+    button.textContent = t('Use it now');
+    why.textContent = button.disabled ? t('Not while a recording runs.') : '';
+    box.replaceChildren(t('A new version is ready. '), button, why);
+    document.querySelector('header').append(box);
+  };
+  say();
+  const spoken = new MutationObserver(() => requestAnimationFrame(say));
+  spoken.observe(document.documentElement, { attributeFilter: ['lang'] });
 
   const allow = (allowed) => {
     button.disabled = !allowed;
-    why.textContent = allowed ? '' : 'Not while a recording runs.';
+    say();
   };
 
   /** Does something where nothing is recorded; else the button is off until that has ended. */

@@ -1,5 +1,6 @@
 // Charts for the page; what is drawn and what a gesture means, the page decides.
 import uPlot from 'uplot';
+import { t } from './language.js';
 
 const sync = uPlot.sync('plot');
 
@@ -15,13 +16,15 @@ const token = (name) => getComputedStyle(document.documentElement).getPropertyVa
 
 const decimals = (step) => Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
 
-const figure = (value, step) => value.toFixed(decimals(step)).replace(/^-(0\.?0*$)?/, (_, zero) => zero ?? '−');
+/** With the decimal mark of the language. */
+const figure = (value, step) =>
+  value.toFixed(decimals(step)).replace(/^-(0\.?0*$)?/, (_, zero) => zero ?? '−').replace('.', t('.'));
 
 /** Seconds below a minute, else minutes or hours as on a clock. */
 const clock = (at, step, most) => {
   if (most < 60) return figure(at, step);
   const two = (number) => String(Math.floor(number)).padStart(2, '0');
-  const rest = (at % 60).toFixed(decimals(step)).padStart(decimals(step) ? 3 + decimals(step) : 2, '0');
+  const rest = figure(at % 60, step).padStart(decimals(step) ? 3 + decimals(step) : 2, '0');
   const minutes = Math.floor(at / 60);
   return most < 3600 ? `${minutes}:${rest}` : `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${rest}`;
 };

@@ -1,7 +1,11 @@
 // Where the page's other files come from: its own server. Where they all are in the page itself,
 // ../single/site.js stands in for this.
 import init from '../pkg/page/page.js';
+import ru from '../pkg/ru.json?url';
 import parts from '../style/parts.css?url';
+
+/** The texts of a language that is not English. */
+export const texts = async (language) => (await fetch({ ru }[language])).json();
 
 export const page = init();
 

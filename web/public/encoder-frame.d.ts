@@ -18,7 +18,7 @@ export interface FrameRecord extends Frame {
  * - `checks="stay"`: CRC and parity stay as they are when something else is changed;
  * - `theme`: `light` or `dark` instead of what the system prefers; `page` for the color scheme of
  *   the page around;
- * - `lang`: the language of the element's own words, `en` or `ru`.
+ * - `lang`: the language, `en` or `ru`; what is not English comes from `ru.json` beside the module.
  *
  * Colours and fonts are the custom properties `--encoder-frame-panel`, `-ink`, `-dim`, `-line`,
  * `-good`, `-warn`, `-bad`, `-turns`, `-angle`, `-flags`, `-status`, `-check`, `-framing`, `-sans`

@@ -67,7 +67,8 @@ const policy = [
   "form-action 'none'",
 ].join('; ');
 const icon = await readFile(here('../icon.svg'), 'base64');
-const files = wasm.map(
+const texts = { fileName: 'ru.json', source: await readFile(here('../pkg/ru.json')) };
+const files = [...wasm, texts].map(
   ({ fileName, source }) =>
     `<script type="text/plain" id="${fileName}">${gzipSync(source, { level: 9 }).toString('base64')}</script>\n`,
 );

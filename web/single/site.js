@@ -16,6 +16,9 @@ const bytes = (name) => {
 // What loads the WASM asks the server for it; here nobody may be asked for anything.
 globalThis.fetch = async (url) => bytes(`${url}`.split('/').pop());
 
+/** The texts of a language that is not English. */
+export const texts = async (language) => (await fetch(`${language}.json`)).json();
+
 export const page = init();
 export const styled = page;
 

@@ -8,6 +8,7 @@ mod captured;
 mod capturing;
 mod export;
 mod judge;
+mod look;
 mod overview;
 mod reading;
 mod rows;
@@ -15,8 +16,8 @@ mod share;
 mod source;
 
 use crate::{
-    link,
-    message::{Explained, FromDesk, Marked, RowView, Selection, ToDesk, TraceView},
+    language, link,
+    message::{FromDesk, Marked, ToDesk},
 };
 use captured::Captured;
 use capturing::{Framing, Tape};
@@ -25,12 +26,12 @@ use encoderscope::{
     detect::Change,
     dump::{Dump, Reader},
     export::{Language, source},
+    language::t,
     profile::Profile,
-    sheet::{Filter, Order, Quantity, Sheet, Show},
+    sheet::{Filter, Order, Sheet},
 };
 use judge::Judge;
 use overview::marked;
-
 use share::Load;
 use source::Source;
 use std::{cell::RefCell, rc::Rc};
@@ -41,8 +42,6 @@ use web_sys::Blob;
 const TYPED: usize = 400_000;
 /// Marks that the page gets.
 const MOST_MARKS: usize = 400;
-/// Rows at the front of a report, and faulty ones behind them.
-const REPORTED: usize = 4;
 
 /// What has been read of the input.
 #[derive(Debug, Default)]
@@ -82,8 +81,6 @@ struct State {
     /// Counts inputs and profiles: work for an earlier one ends.
     job: u32,
     source: Option<Source>,
-    /// What the source is called.
-    name: String,
     profile: Option<Profile>,
     /// Where the data begins in the source.
     origin: usize,
@@ -100,6 +97,9 @@ struct State {
     captured: Captured,
     judge: Judge,
     shown: (Filter, Option<Order>),
+    /// The row that was explained last, and one that is to be as soon as it is there.
+    explained: Option<usize>,
+    awaited: Option<usize>,
     /// How often rows have been chosen and sorted.
     arranged: u32,
     /// When the page was last told how far it is, in milliseconds.
@@ -128,7 +128,6 @@ impl Desk {
                 post: Rc::new(post),
                 job: 0,
                 source: None,
-                name: String::new(),
                 profile: None,
                 origin: 0,
                 binary: false,
@@ -141,6 +140,8 @@ impl Desk {
                 captured: Captured::default(),
                 judge: Judge::default(),
                 shown: (Filter::default(), None),
+                explained: None,
+                awaited: None,
                 arranged: 0,
                 told: 0.0,
             })),
@@ -150,15 +151,19 @@ impl Desk {
     /// Does what the page asks for.
     pub fn handle(&self, message: ToDesk, file: Option<JsValue>) {
         match message {
+            ToDesk::Speak => {
+                language::speak(&file.unwrap_or_default());
+                self.say_again();
+            }
             ToDesk::Text { text, profile } => {
                 let bytes: Rc<[u8]> = text.into_bytes().into();
-                self.open(Source::Memory(bytes), String::new(), &profile);
+                self.open(Source::Text(bytes), &profile);
             }
-            ToDesk::File { name, profile } => {
+            ToDesk::File { profile } => {
                 let blob = file.and_then(|file| file.dyn_into::<Blob>().ok());
                 match blob {
-                    Some(blob) => self.open(Source::File(blob), name, &profile),
-                    None => self.post(FromDesk::Refused("There is no file to read.".into())),
+                    Some(blob) => self.open(Source::File(blob), &profile),
+                    None => self.post(FromDesk::Refused(t("There is no file to read.").into())),
                 }
             }
             ToDesk::Link {
@@ -194,18 +199,19 @@ impl Desk {
     }
 
     /// Begins with new input.
-    fn open(&self, source: Source, name: String, profile: &str) {
+    fn open(&self, source: Source, profile: &str) {
         if let Some(refusal) = source.refusal() {
             return self.post(FromDesk::Refused(refusal));
         }
         {
             let mut state = self.state.borrow_mut();
             state.source = Some(source);
-            state.name = name;
             state.origin = 0;
             state.tape = Tape::None;
             state.judge = Judge::default();
             state.profile = link::profile(profile).ok();
+            state.explained = None;
+            state.awaited = None;
         }
         self.begin();
     }
@@ -221,12 +227,12 @@ impl Desk {
                         change: None,
                     });
                     let bytes: Rc<[u8]> = text.into_bytes().into();
-                    desk.open(Source::Memory(bytes), String::new(), &profile);
+                    desk.open(Source::Text(bytes), &profile);
                     desk.state.borrow_mut().judge.change = Change::parse(&change);
                 }
                 Ok(Load::Bytes(bytes)) => {
                     let bytes: Rc<[u8]> = bytes.into();
-                    desk.open(Source::Memory(bytes), "bytes from a link".into(), &profile);
+                    desk.open(Source::Bytes(bytes), &profile);
                     desk.state.borrow_mut().judge.change = Change::parse(&change);
                 }
                 Err(why) => desk.post(FromDesk::Refused(why)),
@@ -249,123 +255,6 @@ impl Desk {
     /// Whether the work of a job is still wanted.
     fn wants(&self, job: u32) -> bool {
         self.state.borrow().job == job
-    }
-
-    fn show(&self, shown: &Selection) {
-        let show = Show::ALL.into_iter().find(|show| show.name() == shown.show);
-        let range = shown.range.as_ref().and_then(|(name, low, high)| {
-            Quantity::parse(name).map(|quantity| (quantity, *low, *high))
-        });
-        let filter = Filter {
-            show: show.unwrap_or_default(),
-            status: shown.status,
-            range,
-        };
-        let order = shown.order.as_ref().and_then(|(name, descending)| {
-            let by = Quantity::parse(name)?;
-            let descending = *descending;
-            Some(Order { by, descending })
-        });
-        {
-            let mut state = self.state.borrow_mut();
-            if state.shown == (filter, order) {
-                return;
-            }
-            state.shown = (filter, order);
-            if let Some(sheet) = &mut state.sheet {
-                sheet.show(filter, order);
-            }
-            if !state.done {
-                return;
-            }
-        }
-        let desk = self.clone();
-        let job = self.state.borrow().job;
-        wasm_bindgen_futures::spawn_local(async move { desk.arrange(job).await });
-    }
-
-    /// Looks at the rows with what there is of the sheet and the dump.
-    fn look<T>(&self, with: impl FnOnce(&Sheet, &Dump) -> T) -> Option<T> {
-        let state = self.state.borrow();
-        Some(with(state.sheet.as_ref()?, state.paper.dump()?))
-    }
-
-    fn send_rows(&self, first: usize, count: usize) {
-        let rows = self.look(|sheet, dump| {
-            let medium = sheet.decoder().profile().medium();
-            let places = first..first.saturating_add(count).min(sheet.shown());
-            let rows = places
-                .filter_map(|place| sheet.row(dump, sheet.shown_at(place)?))
-                .map(|row| rows::row_view(&row, medium));
-            rows.collect::<Vec<RowView>>()
-        });
-        let rows = rows.unwrap_or_default();
-        self.post(FromDesk::Rows { first, rows });
-    }
-
-    fn explained(&self, index: usize) -> Option<Explained> {
-        self.look(|sheet, dump| {
-            let medium = sheet.decoder().profile().medium();
-            let row = sheet.row(dump, index)?;
-            Some(rows::explained(&row, medium))
-        })
-        .flatten()
-    }
-
-    fn explain(&self, index: usize) {
-        if let Some(mut explained) = self.explained(index) {
-            explained
-                .says
-                .extend(self.state.borrow().captured.said_of(index));
-            self.post(FromDesk::Explained(Box::new(explained)));
-        }
-    }
-
-    fn find(&self, wanted: impl FnOnce(&Sheet, &Dump) -> Option<usize>) {
-        let found = self.look(|sheet, dump| {
-            let index = wanted(sheet, dump)?;
-            (index < sheet.len()).then_some(())?;
-            Some((sheet.place_of(index)?, index))
-        });
-        self.post(FromDesk::Found(found.flatten()));
-    }
-
-    fn trace(&self, from: usize, to: usize, columns: usize) {
-        let traced = self.look(|sheet, dump| {
-            let mut view = TraceView {
-                from,
-                to: to.min(sheet.len()),
-                ..TraceView::default()
-            };
-            for column in sheet.columns(dump, from, to, columns) {
-                let (low, high) = column.range.unwrap_or((f64::NAN, f64::NAN));
-                let gap = column.gaps > 0 && column.range.is_none();
-                view.rows.push(column.row as f64);
-                view.degrees.push(low);
-                if !gap && low < high {
-                    view.rows.push(column.row as f64);
-                    view.degrees.push(high);
-                }
-            }
-            view
-        });
-        self.post(FromDesk::Trace(traced.unwrap_or_default()));
-    }
-
-    /// The first rows, and the first ones of each fault.
-    fn report(&self) {
-        let indices = self.look(|sheet, _| {
-            let figures = sheet.figures();
-            let faulty = figures.faults.iter().chain(&figures.skips);
-            let mut all: Vec<usize> = (0..sheet.len().min(REPORTED)).collect();
-            all.extend(faulty.map(|tally| tally.first).take(REPORTED));
-            all.sort_unstable();
-            all.dedup();
-            all
-        });
-        let rows = indices.unwrap_or_default().into_iter();
-        let rows = rows.filter_map(|index| self.explained(index)).collect();
-        self.post(FromDesk::Report(rows));
     }
 
     /// Writes the decoder in a programming language.
@@ -394,7 +283,7 @@ impl Desk {
             let state = self.state.borrow();
             (state.source.clone(), state.origin)
         };
-        let source = source.ok_or("There is nothing to share yet.")?;
+        let source = source.ok_or_else(|| t("There is nothing to share yet."))?;
         let bytes = source.read(origin as f64, share::MOST + 1).await?;
         Ok(match String::from_utf8(bytes) {
             Ok(text) => Load::Text(text),
@@ -421,8 +310,8 @@ impl Desk {
     fn tell_marks(&self) {
         let marks = {
             let state = self.state.borrow();
-            match (state.paper.dump(), state.name.is_empty()) {
-                (Some(dump), true) => {
+            match (state.paper.dump(), &state.source) {
+                (Some(dump), Some(Source::Text(_))) => {
                     let mut all = marked(dump.dropped());
                     all.extend(marked(dump.unread()).into_iter().map(|mark| Marked {
                         kind: String::new(),

@@ -21,6 +21,7 @@ use encoderscope::{
     decode::Decoder,
     emulator::{Emulator, Shaft},
     finder::Finder,
+    language::msg,
     profile::{Profile, ProfileError},
     session::{Micros, Session},
 };
@@ -35,7 +36,7 @@ use wasm_bindgen::JsValue;
 /// The built-in encoder is asked a thousand times a second.
 const DEMO_INTERVAL: Micros = 1_000;
 /// The adapter of the built-in encoder.
-const BUILT_IN: &str = "built-in encoder";
+const BUILT_IN: &str = msg("built-in encoder");
 /// Figures and the log are renewed so often: nobody reads them faster.
 const SNAPSHOTS: Micros = 200_000;
 
@@ -240,11 +241,9 @@ impl Engine {
         match Self::session(profile, interval) {
             Ok(session) => match emulator(session.decoder().profile()) {
                 Ok(wire) => self.start(session, wire, interval, BUILT_IN),
-                Err(error) => self.set_link(Link::Unfit {
-                    reason: error.to_string(),
-                }),
+                Err(_) => self.set_link(unfit(profile)),
             },
-            Err(reason) => self.set_link(Link::Unfit { reason }),
+            Err(_) => self.set_link(unfit(profile)),
         }
     }
 
@@ -260,9 +259,7 @@ impl Engine {
                 drop(state);
                 self.set_link(Link::Searching);
             }
-            Err(error) => self.set_link(Link::Unfit {
-                reason: error.to_string(),
-            }),
+            Err(_) => self.set_link(unfit(profile)),
         }
     }
 
@@ -274,6 +271,19 @@ impl Engine {
             state.run = Some(Run::reading(wire, session, interval, now()));
         }
         self.set_link(Link::Waiting);
+    }
+}
+
+/// The profile cannot be read over a serial line; why, in the language that is spoken.
+fn unfit(profile: &str) -> Link {
+    let emulated = || link::profile(profile).and_then(|profile| emulator(&profile));
+    let reason = match Engine::session(profile, 0) {
+        Ok(_) => emulated().err().map(|error| error.to_string()),
+        Err(reason) => Some(reason),
+    };
+    Link::Unfit {
+        profile: profile.into(),
+        reason: reason.unwrap_or_default(),
     }
 }
 

@@ -9,6 +9,7 @@
 pub mod browser;
 pub mod desk;
 pub mod engine;
+pub mod language;
 pub mod message;
 pub mod plot;
 pub mod serial;
@@ -17,3 +18,8 @@ pub mod tally;
 pub mod transcript;
 
 pub use encoderscope::link;
+
+// Faster than the one that comes with Rust, and half its size.
+#[cfg(target_family = "wasm")]
+#[global_allocator]
+static ALLOCATOR: talc::wasm::WasmDynamicTalc = talc::wasm::new_wasm_dynamic_allocator();

@@ -8,18 +8,28 @@
 mod desk;
 mod recorder;
 mod search;
+mod snapshot;
 mod wish;
 
 pub use desk::{
     CandidateView, Count, Explained, FieldView, FileKind, FromDesk, Marked, NearView, Overview,
     RowState, RowView, Selection, ToDesk, TraceView,
 };
-pub use recorder::{Digest, Kept, Place, RecorderState, Recording, Replay, Story};
+pub use recorder::{BIT_CHANGES, Digest, Kept, Place, RecorderState, Recording, Replay, Story};
 pub use search::{Found, Search, SearchStage, Trial};
+pub use snapshot::{Counts, Device, ENTRIES, Entry, Lamp, STILL, Shown, Snapshot};
 pub use wish::{Answer, Wish};
 
-use encoderscope::sequence::Change;
+use encoderscope::{language::msg, sequence::Change};
+use js_sys::Array;
 use serde::{Deserialize, Serialize};
+use wasm_bindgen::JsValue;
+
+/// [`Wish::Speak`] and [`ToDesk::Speak`], which the first view says without knowing the others.
+#[must_use]
+pub fn speak(texts: &JsValue) -> JsValue {
+    Array::of2(&"Speak".into(), texts).into()
+}
 
 /// From the page to the engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -135,6 +145,19 @@ pub enum LogFilter {
 }
 
 impl Setting {
+    /// One of each kind.
+    pub const KINDS: [Self; 6] = [
+        Self::Zero,
+        Self::ResetAngle,
+        Self::ResetTurns,
+        Self::ResetErrors,
+        Self::Address(0),
+        Self::Memory {
+            address: 0,
+            data: 0,
+        },
+    ];
+
     /// The sequence that makes it.
     #[must_use]
     pub const fn change(self) -> Change {
@@ -152,12 +175,12 @@ impl Setting {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Zero => "set zero",
-            Self::ResetAngle => "reset angle",
-            Self::ResetTurns => "reset turns",
-            Self::ResetErrors => "reset errors",
-            Self::Address(_) => "set address",
-            Self::Memory { .. } => "EEPROM write",
+            Self::Zero => msg("set zero"),
+            Self::ResetAngle => msg("reset angle"),
+            Self::ResetTurns => msg("reset turns"),
+            Self::ResetErrors => msg("reset errors"),
+            Self::Address(_) => msg("set address"),
+            Self::Memory { .. } => msg("EEPROM write"),
         }
     }
 
@@ -260,13 +283,19 @@ pub enum Link {
     },
     /// The profile cannot be read over a serial port.
     Unfit {
+        /// It, as the parameters of a link.
+        #[serde(default)]
+        profile: String,
         /// Why.
         reason: String,
     },
     /// The port could not be opened.
     Refused {
-        /// Why, and what to do about it.
+        /// Why, in English; perhaps in the browser's words.
         reason: String,
+        /// What to do about it, in English.
+        #[serde(default)]
+        hint: String,
     },
     /// The port went away.
     Lost,
@@ -277,20 +306,20 @@ impl Link {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
-            Self::Closed => "closed",
-            Self::Opening => "opening",
-            Self::Waiting => "waiting",
-            Self::Reading => "reading",
-            Self::Silent { echo: false } => "silent",
-            Self::Silent { echo: true } => "echo-only",
-            Self::Searching => "searching",
-            Self::Garbage => "garbage",
-            Self::Failing => "failing",
-            Self::OtherProfile { .. } => "other-profile",
-            Self::Unasked { .. } => "unasked",
-            Self::Unfit { .. } => "unfit",
-            Self::Refused { .. } => "refused",
-            Self::Lost => "lost",
+            Self::Closed => msg("closed"),
+            Self::Opening => msg("opening"),
+            Self::Waiting => msg("waiting"),
+            Self::Reading => msg("reading"),
+            Self::Silent { echo: false } => msg("silent"),
+            Self::Silent { echo: true } => msg("echo-only"),
+            Self::Searching => msg("searching"),
+            Self::Garbage => msg("garbage"),
+            Self::Failing => msg("failing"),
+            Self::OtherProfile { .. } => msg("other-profile"),
+            Self::Unasked { .. } => msg("unasked"),
+            Self::Unfit { .. } => msg("unfit"),
+            Self::Refused { .. } => msg("refused"),
+            Self::Lost => msg("lost"),
         }
     }
 
@@ -302,164 +331,4 @@ impl Link {
             Self::Closed | Self::Unfit { .. } | Self::Refused { .. } | Self::Lost
         )
     }
-}
-
-/// The shaft stands still when it moves by less than this within a second, in turns: 0.1°.
-pub const STILL: f64 = 1.0 / 3600.0;
-
-/// What the page shows of the link.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Snapshot {
-    /// How the link is.
-    pub link: Link,
-    /// The last good reading.
-    pub reading: Option<Shown>,
-    /// Status bits of the last good frame.
-    pub lamps: Vec<Lamp>,
-    /// Counts since the link was opened.
-    pub counts: Counts,
-    /// Good frames a second.
-    pub rate: f64,
-    /// Median time from request to reply, milliseconds.
-    pub latency: Option<f64>,
-    /// The time that 99 of 100 replies keep, milliseconds.
-    pub latency_p99: Option<f64>,
-    /// Whether the adapter returns what is sent, once known.
-    pub echo: Option<bool>,
-    /// The last frames, newest first.
-    pub log: Vec<Entry>,
-    /// How far the shaft has moved within the last second, in turns, once that is known.
-    pub moved: Option<f64>,
-    /// The sequence that runs or has run last.
-    pub progress: Option<Progress>,
-    /// The cell of the EEPROM that was asked for last.
-    pub memory: Option<Cell>,
-    /// Revolutions per second, from the angles of the last moments.
-    pub turning: Option<f64>,
-    /// The share of the last replies that were bad or missing.
-    pub error_rate: Option<f64>,
-    /// Bytes a second, once that is known.
-    pub byte_rate: Option<f64>,
-    /// Longest pause within a reply in the last seconds, milliseconds.
-    pub gap: Option<f64>,
-    /// The devices of a BUS, after a scan.
-    pub devices: Vec<Device>,
-    /// The address of the BUS device on the dial, to which settings go.
-    pub watched: Option<u32>,
-    /// What the last scan said, in words.
-    pub scan: Option<String>,
-    /// Something else than reading goes on: a setting, a scan, a search, or bytes by hand.
-    pub busy: bool,
-    /// The search for an encoder that runs or has run last.
-    pub search: Option<Search>,
-}
-
-/// A device of a BUS.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Device {
-    /// Its address.
-    pub address: u8,
-    /// Its last good reading.
-    pub reading: Option<Shown>,
-    /// Good and bad frames.
-    pub good: f64,
-    /// Bad frames.
-    pub bad: f64,
-    /// Whether it answered within the last second.
-    pub fresh: bool,
-}
-
-/// A good reading.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Shown {
-    /// Counts within one turn.
-    pub angle: f64,
-    /// Bits per turn.
-    pub angle_bits: u32,
-    /// Degrees.
-    pub degrees: f64,
-    /// Whole turns.
-    pub turns: Option<f64>,
-    /// The encoder says that the position is not valid.
-    pub error: bool,
-    /// The encoder warns.
-    pub warning: bool,
-    /// The six status bits; T485: the status field.
-    pub status: Option<u8>,
-    /// Revolutions per second.
-    pub speed: Option<f64>,
-    /// Degrees Celsius.
-    pub temperature: Option<f64>,
-    /// No zero has been set by the user (IP-75, ZPD).
-    pub zero_default: Option<bool>,
-}
-
-/// A status bit.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Lamp {
-    /// Name.
-    pub name: String,
-    /// What it means and what to do.
-    pub doc: String,
-    /// Set in the last good frame.
-    pub now: bool,
-    /// In how many good frames it was set.
-    pub seen: f64,
-}
-
-/// Counts since the link was opened; bytes in = bytes in frames + skipped + in sequences +
-/// not yet judged, which is nothing once the link has ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Counts {
-    /// Good frames.
-    pub good: f64,
-    /// Frames with a fault.
-    pub bad: f64,
-    /// Bytes received.
-    pub bytes: f64,
-    /// Bytes in frames, good and bad.
-    pub framed: f64,
-    /// Bytes in no frame, echoes included.
-    pub skipped: f64,
-    /// Bytes that came while a sequence or a scan ran, or after bytes sent by hand.
-    pub set: f64,
-    /// Requests without a reply.
-    pub silent: f64,
-    /// Break, framing, parity and overrun errors of the port.
-    pub line: f64,
-}
-
-impl std::ops::Add for Counts {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            good: self.good + other.good,
-            bad: self.bad + other.bad,
-            bytes: self.bytes + other.bytes,
-            framed: self.framed + other.framed,
-            skipped: self.skipped + other.skipped,
-            set: self.set + other.set,
-            silent: self.silent + other.silent,
-            line: self.line + other.line,
-        }
-    }
-}
-
-/// Entries of the log that a snapshot carries.
-pub const ENTRIES: usize = 14;
-
-/// A frame or a skip in the log.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
-    /// Seconds since the link was opened.
-    pub time: f64,
-    /// Whether it was sent from here.
-    pub sent: bool,
-    /// The bytes, each with the class of its field.
-    pub bytes: Vec<(u8, String)>,
-    /// Whether it is a frame whose checks hold; `None` where nothing is to be judged.
-    pub ok: Option<bool>,
-    /// What is wrong, why it is no frame, or who sent it.
-    pub text: String,
 }

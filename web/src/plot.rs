@@ -2,6 +2,7 @@
 
 use encoderscope::{
     history::{History, Sample, Series},
+    language::msg,
     session::Micros,
     standstill::Standstill,
 };
@@ -28,10 +29,10 @@ impl Quantity {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Angle => "angle",
-            Self::Speed => "speed",
-            Self::Temperature => "temperature",
-            Self::Errors => "errors",
+            Self::Angle => msg("angle"),
+            Self::Speed => msg("speed"),
+            Self::Temperature => msg("temperature"),
+            Self::Errors => msg("errors"),
         }
     }
 
@@ -40,9 +41,9 @@ impl Quantity {
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Angle => "°",
-            Self::Speed => " rev/s",
+            Self::Speed => msg(" rev/s"),
             Self::Temperature => " °C",
-            Self::Errors => " a second",
+            Self::Errors => msg(" a second"),
         }
     }
 

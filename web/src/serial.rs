@@ -6,7 +6,9 @@ use crate::{
 };
 use encoderscope::{
     adapter::{Chip, Made},
+    language::msg,
     recording::LineError,
+    text,
 };
 use js_sys::{Array, Uint8Array};
 use std::{cell::RefCell, rc::Rc};
@@ -149,7 +151,7 @@ pub fn on_plugged(then: impl Fn() + 'static) {
 #[must_use]
 pub fn name(port: PortId) -> String {
     let (Some(vendor), Some(product)) = (port.vendor, port.product) else {
-        return format!("Serial port {}", port.index + 1);
+        return text!("Serial port {}", port.index + 1);
     };
     Chip::of(vendor, product).map_or_else(
         || format!("USB {vendor:04x}:{product:04x}"),
@@ -157,11 +159,11 @@ pub fn name(port: PortId) -> String {
     )
 }
 
-/// A name for a port that tells its kind to everyone: its chip and USB identity.
+/// A name for a port that tells its kind to everyone: its chip and USB identity, in English.
 #[must_use]
 pub fn kind(port: PortId) -> String {
     let (Some(vendor), Some(product)) = (port.vendor, port.product) else {
-        return "serial port".into();
+        return msg("serial port").into();
     };
     let chip = Chip::of(vendor, product).map_or("USB", |chip| chip.name);
     format!("{chip} ({vendor:04x}:{product:04x})")
@@ -241,9 +243,9 @@ impl Port {
         let ports = ports().await?;
         let listed: Vec<PortId> = identities(&ports);
         let index = find(&listed, id).ok_or_else(|| {
-            JsValue::from(js_sys::Error::new(
+            JsValue::from(js_sys::Error::new(msg(
                 "The adapter is not plugged in, or not the only one of its kind.",
-            ))
+            )))
         })?;
         let port = &ports[index];
         let watch = Watch::new(port, gone);

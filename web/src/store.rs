@@ -7,7 +7,10 @@ use crate::{
     browser::{error_text, property},
     message::Kept,
 };
-use encoderscope::recording::{Reader, Writer, is_whole};
+use encoderscope::{
+    language::msg,
+    recording::{Reader, Writer, is_whole},
+};
 use js_sys::{Array, Function, Promise, Uint8Array};
 use wasm_bindgen::{JsCast, JsValue, closure::Closure};
 use wasm_bindgen_futures::JsFuture;
@@ -94,7 +97,7 @@ impl Out {
     ///
     /// # Errors
     ///
-    /// Why they could not be written, in words.
+    /// Why they could not be written, in English.
     pub fn append(&mut self, bytes: &[u8]) -> Result<(), String> {
         let options = FileSystemReadWriteOptions::new();
         options.set_at_f64(self.size);
@@ -113,7 +116,7 @@ impl Out {
             Err(error) if error_text(&error).0 == "QuotaExceededError" => {}
             Err(error) => {
                 let (_, message) = error_text(&error);
-                return Err(format!("It cannot be written: {message}"));
+                return Err(format!("{}: {message}", msg("It cannot be written")));
             }
         }
         // Whole blocks alone are left; where even that fails, a reader finds the end.
@@ -121,7 +124,7 @@ impl Out {
             .handle
             .truncate_with_f64(self.size)
             .and_then(|()| self.handle.flush());
-        Err("There is no room left for it.".into())
+        Err(msg("There is no room left for it.").into())
     }
 }
 

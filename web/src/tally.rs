@@ -7,6 +7,7 @@ mod pace;
 mod settings;
 mod shaft;
 mod story;
+mod take;
 
 use crate::{
     link::query,
@@ -14,24 +15,21 @@ use crate::{
     plot::Trail,
     transcript::Transcript,
 };
-use asides::Kept;
 pub(crate) use asides::RESTLESS;
+use asides::{Kept, Scan};
 use encoderscope::{
-    bits,
     decode::{Decoder, Frame},
-    history::Sample,
     reading::degrees,
     recording::{Line, LineError},
-    session::{Echo, Micros, Output},
+    session::{Echo, Micros},
 };
 use log::{Kind, Log, Seen};
 use pace::Pace;
+use settings::Words;
 use shaft::{FEWEST, Place};
 use std::collections::VecDeque;
 use story::Story;
 
-/// Replies over which latencies are sorted.
-const LATENCIES: usize = 512;
 /// The rate is taken over this time.
 const RATE_OVER: Micros = 1_000_000;
 
@@ -66,8 +64,10 @@ pub struct Tally {
     places: VecDeque<Place>,
     pace: Pace,
     progress: Option<Progress>,
+    /// How it ended.
+    ending: Option<Words>,
     devices: Vec<Kept>,
-    scan: Option<String>,
+    scan: Option<Scan>,
     search: Option<Search>,
     memory: Option<Cell>,
     /// What the plot shows.
@@ -105,6 +105,7 @@ impl Tally {
             places: VecDeque::new(),
             pace: Pace::default(),
             progress: None,
+            ending: None,
             devices: Vec::new(),
             scan: None,
             search: None,
@@ -122,6 +123,7 @@ impl Tally {
         let next = Self::new(now, Transcript::default());
         let before = std::mem::replace(self, next);
         self.progress = before.progress;
+        self.ending = before.ending;
         self.log.filter = before.log.filter;
         self.transcript = before.transcript;
         self.story = before.story;
@@ -225,143 +227,17 @@ impl Tally {
         self.echo = echo;
     }
 
-    /// Counts what the session says; returns whether it is a good frame.
-    pub fn take(&mut self, now: Micros, output: &Output) -> bool {
-        match output {
-            Output::Transmit(bytes) => {
-                self.transcript.sent(now, bytes, None);
-                self.pace.request();
-                self.remember(now, bytes, Kind::Asked, String::new());
-            }
-            Output::Silent { .. } => {
-                self.counts.silent += 1.0;
-                self.pace.frame(now, false);
-                self.trail.fail(now);
-            }
-            Output::Skip { bytes, why } => {
-                self.counts.skipped += bytes.len() as f64;
-                self.remember(now, bytes, Kind::Skip, why.to_string());
-            }
-            Output::Frame {
-                bytes,
-                sure,
-                latency,
-            } => {
-                self.counts.framed += bytes.len() as f64;
-                return self.take_frame(now, bytes, *sure, *latency);
-            }
-        }
-        self.pass();
-        false
-    }
-
     /// Frames have gone by.
     fn pass(&mut self) {
         self.news = self.news.max(News::Frames);
     }
 
-    fn take_frame(
-        &mut self,
-        now: Micros,
-        bytes: &[u8],
-        sure: bool,
-        latency: Option<Micros>,
-    ) -> bool {
-        let Some(decoder) = self.decoder.take() else {
-            return false;
-        };
-        let frame = frame_of(&decoder, bytes, sure);
-        let text = match &frame {
-            Some(frame) => frame.faults().first().map(|fault| fault.kind.to_string()),
-            None => Some("no frame of this format".into()),
-        };
-        let good = text.is_none();
-        self.pace.frame(now, good);
-        if let Some(frame) = &frame {
-            self.take_device(now, frame, good);
-        }
-        let memory = frame.as_ref().map(|frame| frame.values().memory);
-        match (good, &frame) {
-            (true, Some(frame)) => {
-                self.counts.good += 1.0;
-                // The encoder takes its position when it is asked.
-                let at = now - latency.unwrap_or(0).min(now);
-                if let Some((Some(address), data)) = memory {
-                    // It says nothing about the shaft.
-                    self.memory = Some(Cell { address, data });
-                } else if self.devices.is_empty() || is_own(&decoder, frame) {
-                    self.take_good(at, frame);
-                }
-                self.good_times.push_back(now);
-                self.forget(now);
-                self.latencies.extend(latency);
-                if self.latencies.len() > LATENCIES {
-                    self.latencies.pop_front();
-                }
-            }
-            _ => {
-                self.counts.bad += 1.0;
-                self.trail.fail(now);
-            }
-        }
-        self.decoder = Some(decoder);
-        self.remember(
-            now,
-            bytes,
-            Kind::Frame { sure, good },
-            text.unwrap_or_default(),
-        );
-        good
-    }
-
-    /// A good frame of the encoder on the dial.
-    fn take_good(&mut self, now: Micros, frame: &Frame<'_>) {
-        let named = frame.layout.fields().flat_map(|field| {
-            let raw = frame.layout.read(field, frame.bits);
-            field
-                .row
-                .bits
-                .iter()
-                .map(move |bit| bits::bit(raw, bit.place))
-        });
-        for (index, set) in named.enumerate() {
-            if index == self.seen_bits.len() {
-                self.seen_bits.push(0.0);
-            }
-            self.seen_bits[index] += f64::from(u8::from(set));
-        }
-        if let Some(shown) = shown(frame) {
-            self.places.push_back(Place {
-                at: now,
-                part: shown.degrees / 360.0,
-                turns: shown.turns,
-            });
-            let sample = Sample {
-                degrees: shown.degrees,
-                turns: shown.turns,
-                speed: shown.speed,
-                temperature: shown.temperature,
-            };
-            self.trail.take(now, shown.angle as u64, &sample);
-        }
-        let bytes = frame.bits.bytes();
-        match &mut self.last_good {
-            Some(last) => {
-                last.clear();
-                last.extend_from_slice(bytes);
-            }
-            none => *none = Some(bytes.into()),
-        }
-        self.fresh = true;
-    }
-
-    fn remember(&mut self, at: Micros, bytes: &[u8], kind: Kind, text: String) {
+    fn remember(&mut self, at: Micros, bytes: &[u8], kind: Kind) {
         self.pass();
         self.log.push(Seen {
             at,
             bytes: bytes.into(),
             kind,
-            text,
         });
     }
 
@@ -404,7 +280,7 @@ impl Tally {
                 Echo::Present => Some(true),
             },
             moved: self.moved(now),
-            progress: self.progress.clone(),
+            progress: self.progress(),
             turning: self.trail.turning(),
             error_rate: self.pace.error_rate(now),
             byte_rate: self.pace.byte_rate(now),
@@ -415,7 +291,7 @@ impl Tally {
                 .map(|device| device.shown(now))
                 .collect(),
             watched: self.watched(),
-            scan: self.scan.clone(),
+            scan: self.scan.as_ref().map(Scan::says),
             search: self.search.clone(),
             memory: self.memory,
             ..Snapshot::default()
@@ -465,10 +341,4 @@ fn shown(frame: &Frame<'_>) -> Option<Shown> {
         temperature: scaled(values.temperature),
         zero_default: values.zero_default,
     })
-}
-
-/// Whether a frame comes from the device of the profile.
-fn is_own(decoder: &Decoder, frame: &Frame<'_>) -> bool {
-    let address = frame.values().address;
-    address.is_none_or(|address| u32::from(address) == decoder.profile().address)
 }

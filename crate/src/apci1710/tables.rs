@@ -4,7 +4,7 @@ use crate::layout::{Active, layout};
 
 layout! {
     /// Divides the PCI clock down to the clock of the encoders, which must not exceed 1 MHz.
-    pub(super) static FRQ(p) {
+    pub static FRQ(p) {
         /// The clock is the PCI clock divided by twice this number; 0 divides by 2 as 1 does.
         divider: Count[16];
     }
@@ -12,7 +12,7 @@ layout! {
 
 layout! {
     /// Busy, and the levels of the data lines and of the inputs.
-    pub(super) static STATUS(p) {
+    pub static STATUS(p) {
         /// Bits that table 5 does not name.
         unused: Framing[25];
         /// D6, the input on Gx: 0 is high, 1 is low.
@@ -34,7 +34,7 @@ layout! {
 
 layout! {
     /// How many bits the words have.
-    pub(super) static COUNTS(p) {
+    pub static COUNTS(p) {
         /// Bits of a word; the module sends one clock more, 26 for 25 bits.
         bits: Count[8];
     }
@@ -42,7 +42,7 @@ layout! {
 
 layout! {
     /// The word of one encoder, its last bit in D0; the bits above the word are to be masked.
-    pub(super) static SHIFT(p) {
+    pub static SHIFT(p) {
         /// What has been clocked in, converted from Gray code where CONTROL says so.
         word: Framing[32];
     }
@@ -50,7 +50,7 @@ layout! {
 
 layout! {
     /// A write starts a reading of all three encoders.
-    pub(super) static START(p) {
+    pub static START(p) {
         /// What is written does not matter.
         any: Framing[32];
     }
@@ -58,7 +58,7 @@ layout! {
 
 layout! {
     /// Which words the module converts from Gray code; none after a restart.
-    pub(super) static CONTROL(p) {
+    pub static CONTROL(p) {
         /// Bits that the article does not name.
         unused: Framing[5];
         /// D2, the word in SHIFT 3: 1 converts it.
@@ -72,7 +72,7 @@ layout! {
 
 layout! {
     /// The digital output, which has nothing to do with SSI.
-    pub(super) static OUTPUT(p) {
+    pub static OUTPUT(p) {
         /// Bits that the article does not name.
         unused: Framing[31];
         /// D0, the output on Hx: 1 switches it on.
@@ -82,7 +82,7 @@ layout! {
 
 layout! {
     /// What the module is, in characters: SI10 is Synchronous Serial Interface, revision 1.0.
-    pub(super) static IDENTITY(p) {
+    pub static IDENTITY(p) {
         /// The function of the module, two characters.
         function: Enid[16];
         /// Its revision, two characters.

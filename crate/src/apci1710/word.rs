@@ -6,8 +6,10 @@ use crate::{
     decode::Decoder,
     explain::Note,
     format::Link,
+    language::t,
     layout::{Class, Resolved, Shape},
     reading::Values,
+    say,
 };
 use alloc::{string::String, vec::Vec};
 use core::fmt;
@@ -49,12 +51,14 @@ pub enum WordError {
 impl fmt::Display for WordError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotClocked => {
-                f.write_str("an encoder of this format is not clocked, and no SSI module reads it")
-            }
-            Self::TooLong { bits } => write!(
+            Self::NotClocked => f.write_str(t(
+                "an encoder of this format is not clocked, and no SSI module reads it",
+            )),
+            Self::TooLong { bits } => say!(
                 f,
-                "the word has {bits} bits, and SHIFT holds {WORD_BITS}: the first are lost"
+                "the word has {} bits, and SHIFT holds {}: the first are lost",
+                bits,
+                WORD_BITS
             ),
         }
     }
@@ -97,13 +101,13 @@ impl Word {
                 name: "above",
                 class: Class::Framing,
                 spans: [Span::new(0, above)].into(),
-                doc: String::from("What stands above the word."),
+                doc: String::from(t("What stands above the word.")),
                 raw: beside,
                 text: match beside {
-                    0 => String::from("zero"),
-                    _ => String::from(
+                    0 => String::from(t("zero")),
+                    _ => String::from(t(
                         "not zero: left over, or the word is longer than the profile says",
-                    ),
+                    )),
                 },
                 bits: Vec::new(),
                 fault: None,

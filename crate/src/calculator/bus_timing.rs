@@ -2,7 +2,7 @@
 
 use super::{
     Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word,
-    quantity::{Measure, rounded},
+    quantity::{Measure, shown},
 };
 use crate::{
     decode::Decoder,
@@ -11,22 +11,24 @@ use crate::{
         Format,
         bus::{self, Operation},
     },
+    language::{msg, t},
     layout::{Resolved, Shape},
     profile::Profile,
+    text,
 };
-use alloc::{format, vec::Vec};
+use alloc::vec::Vec;
 
 const NONE: Word = Word {
     name: "0",
-    title: "none",
+    title: msg("none"),
 };
 const EIGHT: Word = Word {
     name: "8",
-    title: "8 bits, as in the manuals' example 16M1",
+    title: msg("8 bits, as in the manuals' example 16M1"),
 };
 const SIXTEEN: Word = Word {
     name: "16",
-    title: "16 bits, models XXM",
+    title: msg("16 bits, models XXM"),
 };
 
 /// What a byte takes on the wire: a start bit, eight bits and a stop bit.
@@ -34,45 +36,51 @@ const BYTE: f64 = 10.0;
 
 pub(super) const BUS_TIMING: Calculator = Calculator {
     name: "bus-timing",
-    title: "BUS timing",
-    about: "How long the other devices sleep while one answers, and how often all of them can be asked.",
-    source: "MPP and PT, BUS, devices on the bus: T_SUSPEND",
+    title: msg("BUS timing"),
+    about: msg(
+        "How long the other devices sleep while one answers, and how often all of them can be asked.",
+    ),
+    source: msg("MPP and PT, BUS, devices on the bus: T_SUSPEND"),
     inputs: &[
         Input::number(
             "angle-bits",
-            "Bits per turn",
-            "XX of the order code",
+            msg("Bits per turn"),
+            msg("XX of the order code"),
             (Measure::Bits, "bits"),
             (1.0, 24.0),
             "24",
         ),
         Input::word(
             "turns-bits",
-            "Turn counter",
-            "M of the order code",
+            msg("Turn counter"),
+            msg("M of the order code"),
             &[SIXTEEN, EIGHT, NONE],
             "16",
         ),
         Input::number(
             "devices",
-            "Devices",
-            "on one pair of wires; an address has five bits",
+            msg("Devices"),
+            msg("on one pair of wires; an address has five bits"),
             (Measure::Count, ""),
             (1.0, 32.0),
             "4",
         ),
         Input::number(
             "answer-delay",
-            "Delay of the answer",
-            "from the end of the request to the start of the reply; the manuals name none, 3 µs is usual with T485",
+            msg("Delay of the answer"),
+            msg(
+                "from the end of the request to the start of the reply; the manuals name none, 3 µs is usual with T485",
+            ),
             (Measure::Time, "µs"),
             (0.0, 1e4),
             "3",
         ),
         Input::number(
             "adapter-delay",
-            "Delay of the adapter",
-            "for each question, 0 on the wire itself; an FTDI chip holds short replies for its latency timer, 16 ms or 1 ms where it is set so",
+            msg("Delay of the adapter"),
+            msg(
+                "for each question, 0 on the wire itself; an FTDI chip holds short replies for its latency timer, 16 ms or 1 ms where it is set so",
+            ),
             (Measure::Time, "ms"),
             (0.0, 1e4),
             "1",
@@ -109,7 +117,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     let distance = byte + if is_asleep { suspend } else { answered };
     let asleep = Answer::of(
         "suspend",
-        "Sleep of the others, T_SUSPEND",
+        t("Sleep of the others, T_SUSPEND"),
         suspend,
         4,
         "µs",
@@ -117,21 +125,15 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     let bytes = suspend / byte;
     let asleep = match answered > suspend {
         true => asleep
-            .note(format!(
-                "{} bytes of {} µs; the reply ends {} µs after the request, so the others wake while it runs and may take its end for a request",
-                rounded(bytes, 4), rounded(byte, 4), rounded(answered, 6)
-            ))
+            .note(text!("{} bytes of {} µs; the reply ends {} µs after the request, so the others wake while it runs and may take its end for a request", shown(bytes, 4), shown(byte, 4), shown(answered, 6)))
             .tone(Tone::Warn),
-        false => asleep.note(format!(
-            "ceil(XX / 8) + YY / 8 + 4 = {} bytes of {} µs; the reply ends {} µs after the request",
-            rounded(bytes, 4), rounded(byte, 4), rounded(answered, 6)
-        )),
+        false => asleep.note(text!("ceil(XX / 8) + YY / 8 + 4 = {} bytes of {} µs; the reply ends {} µs after the request", shown(bytes, 4), shown(byte, 4), shown(answered, 6))),
     };
-    let sent = format!(
+    let sent = text!(
         "{} bytes: the request again, status, angle{}, CRC",
         reply,
         if profile.turns_bits > 0 {
-            ", turns"
+            t(", turns")
         } else {
             ""
         }
@@ -139,22 +141,22 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     let round = devices * distance;
     let mut answers: Vec<Answer> = [
         asleep,
-        Answer::of("reply-bytes", "Reply", reply as f64, 4, "bytes"),
-        Answer::of("reply-time", "Reply on the wire", reply_time, 4, "µs").note(sent),
+        Answer::of("reply-bytes", t("Reply"), reply as f64, 4, "bytes"),
+        Answer::of("reply-time", t("Reply on the wire"), reply_time, 4, "µs").note(sent),
         Answer::of(
             "distance",
-            "From one request to the next, at least",
+            t("From one request to the next, at least"),
             distance,
             5,
             "µs",
         )
         .note(match is_asleep {
-            true => "request and sleep: before that the next device does not hear",
-            false => "request, delay and reply",
+            true => t("request and sleep: before that the next device does not hear"),
+            false => t("request, delay and reply"),
         }),
-        Answer::of("round", "A round of all devices", round / 1e3, 5, "ms"),
-        Answer::of("rate", "Positions a second, of each", 1e6 / round, 4, ""),
-        Answer::of("rate-together", "Of all together", 1e6 / distance, 4, ""),
+        Answer::of("round", t("A round of all devices"), round / 1e3, 5, "ms"),
+        Answer::of("rate", t("Positions a second, of each"), 1e6 / round, 4, ""),
+        Answer::of("rate-together", t("Of all together"), 1e6 / distance, 4, ""),
     ]
     .into();
     if adapter > 0.0 {
@@ -162,26 +164,26 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
         answers.extend([
             Answer::of(
                 "adapter-round",
-                "A round through the adapter",
+                t("A round through the adapter"),
                 slow / 1e3,
                 5,
                 "ms",
             )
-            .note(format!(
+            .note(text!(
                 "{} ms more for each of {} questions",
-                rounded(adapter / 1e3, 6),
+                shown(adapter / 1e3, 6),
                 grouped(devices as u64)
             )),
             Answer::of(
                 "adapter-rate",
-                "Positions a second through it, of each",
+                t("Positions a second through it, of each"),
                 1e6 / slow,
                 4,
                 "",
             ),
             Answer::of(
                 "adapter-rate-together",
-                "Of all together, through it",
+                t("Of all together, through it"),
                 devices * 1e6 / slow,
                 4,
                 "",

@@ -1,6 +1,13 @@
 //! Numbers as people write them: `200`, `2,5 MHz`, `6.5 ns/m`, `1 000 000`.
 
-use alloc::{format, string::String};
+use crate::{
+    language::{self, msg, t},
+    text,
+};
+use alloc::{
+    format,
+    string::{String, ToString},
+};
 
 /// What a number counts: units of one kind, of which each is a multiple of the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,38 +34,72 @@ pub enum Measure {
     Address,
 }
 
+/// What Russians write for units.
+const CYRILLIC: &[(&str, &str)] = &[
+    ("бит", "bits"),
+    ("бита", "bits"),
+    ("биты", "bits"),
+    ("Гц", "Hz"),
+    ("кГц", "kHz"),
+    ("МГц", "MHz"),
+    ("бод", "baud"),
+    ("кбод", "kbaud"),
+    ("Мбод", "Mbaud"),
+    ("с", "s"),
+    ("мс", "ms"),
+    ("мкс", "µs"),
+    ("нс", "ns"),
+    ("нс/м", "ns/m"),
+    ("м", "m"),
+    ("см", "cm"),
+    ("мм", "mm"),
+    ("мкм", "µm"),
+];
+
 impl Measure {
     /// Its units, with how many of the first each is.
     const fn units(self) -> &'static [(&'static str, f64)] {
         match self {
             Self::Count | Self::Fraction | Self::Address => &[],
-            Self::Bits => &[("bits", 1.0), ("bit", 1.0)],
-            Self::Frequency => &[("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)],
-            Self::Rate => &[
-                ("baud", 1.0),
-                ("Bd", 1.0),
-                ("kbaud", 1e3),
-                ("kBd", 1e3),
-                ("Mbaud", 1e6),
-                ("MBd", 1e6),
-            ],
-            Self::Time => &[
-                ("s", 1.0),
-                ("ms", 1e-3),
-                ("µs", 1e-6),
-                ("μs", 1e-6),
-                ("us", 1e-6),
-                ("ns", 1e-9),
-            ],
-            Self::Delay => &[("ns/m", 1.0)],
-            Self::Length => &[
-                ("m", 1.0),
-                ("cm", 1e-2),
-                ("mm", 1e-3),
-                ("µm", 1e-6),
-                ("μm", 1e-6),
-                ("um", 1e-6),
-            ],
+            Self::Bits => const { &[(msg("bits"), 1.0), ("bit", 1.0)] },
+            Self::Frequency => const { &[(msg("Hz"), 1.0), (msg("kHz"), 1e3), (msg("MHz"), 1e6)] },
+            Self::Rate => {
+                const {
+                    &[
+                        (msg("baud"), 1.0),
+                        ("Bd", 1.0),
+                        (msg("kbaud"), 1e3),
+                        ("kBd", 1e3),
+                        (msg("Mbaud"), 1e6),
+                        ("MBd", 1e6),
+                    ]
+                }
+            }
+            Self::Time => {
+                const {
+                    &[
+                        (msg("s"), 1.0),
+                        (msg("ms"), 1e-3),
+                        (msg("µs"), 1e-6),
+                        ("μs", 1e-6),
+                        ("us", 1e-6),
+                        (msg("ns"), 1e-9),
+                    ]
+                }
+            }
+            Self::Delay => const { &[(msg("ns/m"), 1.0)] },
+            Self::Length => {
+                const {
+                    &[
+                        (msg("m"), 1.0),
+                        (msg("cm"), 1e-2),
+                        (msg("mm"), 1e-3),
+                        (msg("µm"), 1e-6),
+                        ("μm", 1e-6),
+                        ("um", 1e-6),
+                    ]
+                }
+            }
             Self::Angle => &[
                 ("°", 1.0),
                 ("deg", 1.0),
@@ -74,6 +115,8 @@ impl Measure {
 
     fn scale(self, unit: &str) -> Option<f64> {
         let units = self.units();
+        let cyrillic = CYRILLIC.iter().find(|(name, _)| *name == unit);
+        let unit = cyrillic.map_or(unit, |(_, latin)| latin);
         // mHz is no MHz: prefixes keep their case, other letters need not.
         let is_prefixed = unit.starts_with(['m', 'M']);
         let exact = units.iter().find(|(name, _)| *name == unit);
@@ -98,6 +141,7 @@ impl Measure {
 /// ```
 /// use encoderscope::calculator::quantity::{Measure, parse};
 /// assert_eq!(parse("2,5 MHz", Measure::Frequency, "kHz"), Ok(2500.0));
+/// assert_eq!(parse("2,5 МГц", Measure::Frequency, "kHz"), Ok(2500.0));
 /// assert_eq!(parse("1 000 000", Measure::Count, ""), Ok(1e6));
 /// assert_eq!(parse("0xD0_80", Measure::Address, ""), Ok(53376.0));
 /// assert!(parse("200 apples", Measure::Length, "m").is_err());
@@ -106,7 +150,10 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
     let text = text.trim();
     if measure == Measure::Address && text.contains(|letter: char| letter.is_ascii_alphabetic()) {
         return address(text).ok_or_else(|| {
-            format!("\"{text}\" is not an address: hexadecimal digits stand behind 0x")
+            text!(
+                "\"{}\" is not an address: hexadecimal digits stand behind 0x",
+                text
+            )
         });
     }
     let is_part = |letter: char| letter.is_ascii_digit() || ".,-−+".contains(letter);
@@ -123,8 +170,10 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
     }
     let (digits, name) = text.split_at(end);
     if let Some(whole) = thousands(digits) {
-        return Err(format!(
-            "\"{text}\" may be a thousand or a fraction: write {whole} or use a point"
+        return Err(text!(
+            "\"{}\" may be a thousand or a fraction: write {} or use a point",
+            text,
+            whole
         ));
     }
     let digits: String = digits
@@ -137,10 +186,10 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
         })
         .collect();
     let number: f64 = match digits.is_empty() {
-        true if text.is_empty() => return Err("is empty".into()),
+        true if text.is_empty() => return Err(t("is empty").into()),
         _ => digits
             .parse()
-            .map_err(|_| format!("\"{text}\" is not a number"))?,
+            .map_err(|_| text!("\"{}\" is not a number", text))?,
     };
     let of = |name: &str| measure.scale(name).unwrap_or(1.0);
     match name.trim() {
@@ -150,10 +199,10 @@ pub fn parse(text: &str, measure: Measure, unit: &str) -> Result<f64, String> {
             .map(|scale| number * (scale / of(unit)))
             .ok_or_else(|| {
                 let known: alloc::vec::Vec<_> =
-                    measure.units().iter().map(|(name, _)| *name).collect();
+                    measure.units().iter().map(|(name, _)| t(name)).collect();
                 match known.is_empty() {
-                    true => format!("\"{name}\" stands behind a plain number"),
-                    false => format!("\"{name}\" is none of {}", known.join(", ")),
+                    true => text!("\"{}\" stands behind a plain number", name),
+                    false => text!("\"{}\" is none of {}", name, known.join(", ")),
                 }
             }),
     }
@@ -225,4 +274,9 @@ pub fn rounded(number: f64, digits: i32) -> String {
         "" => format!("{sign}{whole}"),
         part => format!("{sign}{whole}.{part}"),
     }
+}
+
+/// The same as people of the language write it.
+pub(super) fn shown(number: f64, digits: i32) -> String {
+    language::number(rounded(number, digits)).to_string()
 }

@@ -2,30 +2,33 @@
 
 use super::{
     Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word,
-    quantity::{Measure, rounded},
+    quantity::{Measure, shown},
 };
-use crate::bits::codes;
-use alloc::format;
+use crate::{
+    bits::codes,
+    language::{msg, number, t},
+    text,
+};
 
 const BITS: Word = Word {
     name: "bits",
-    title: "bits per turn",
+    title: msg("bits per turn"),
 };
 const COUNTS: Word = Word {
     name: "counts",
-    title: "counts per turn",
+    title: msg("counts per turn"),
 };
 const DEGREES: Word = Word {
     name: "degrees",
-    title: "degrees per count",
+    title: msg("degrees per count"),
 };
 const ARC: Word = Word {
     name: "arc-seconds",
-    title: "seconds of arc per count",
+    title: msg("seconds of arc per count"),
 };
 const LENGTH: Word = Word {
     name: "length",
-    title: "µm per count at the radius",
+    title: msg("µm per count at the radius"),
 };
 
 const SECONDS: f64 = 360.0 * 3600.0;
@@ -34,37 +37,39 @@ const MOST: f64 = codes(48) as f64;
 
 pub(super) const RESOLUTION: Calculator = Calculator {
     name: "resolution",
-    title: "Resolution",
-    about: "Bits, counts, degrees, seconds of arc and micrometres at a radius, and what the accuracy leaves of them.",
-    source: "IP-75, table 1; MPP and PT, characteristics",
+    title: msg("Resolution"),
+    about: msg(
+        "Bits, counts, degrees, seconds of arc and micrometres at a radius, and what the accuracy leaves of them.",
+    ),
+    source: msg("IP-75, table 1; MPP and PT, characteristics"),
     inputs: &[
         Input::word(
             "given",
-            "What is known",
-            "any one of them gives the others",
+            msg("What is known"),
+            msg("any one of them gives the others"),
             &[BITS, COUNTS, DEGREES, ARC, LENGTH],
             "bits",
         ),
         Input::number(
             "value",
-            "How much",
-            "a number alone, of what is chosen above",
+            msg("How much"),
+            msg("a number alone, of what is chosen above"),
             (Measure::Fraction, ""),
             (0.0, MOST),
             "24",
         ),
         Input::number(
             "radius",
-            "Radius",
-            "from the axis to the point that moves",
+            msg("Radius"),
+            msg("from the axis to the point that moves"),
             (Measure::Length, "mm"),
             (0.001, 1e6),
             "50",
         ),
         Input::number(
             "accuracy",
-            "Accuracy, ±",
-            "MPP and PT ±0.01°, IP-75 720″",
+            msg("Accuracy, ±"),
+            msg("MPP and PT ±0.01°, IP-75 720″"),
             (Measure::Angle, "°"),
             (0.0, 360.0),
             "0.01",
@@ -84,22 +89,27 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     };
     let counts = match given.word("given") {
         "bits" if value > 48.0 || value != f64::from(value as u32) => {
-            return Err(fault(format!(
-                "{value} bits: a width is a whole number up to 48"
+            return Err(fault(text!(
+                "{} bits: a width is a whole number up to 48",
+                number(value)
             )));
         }
         "bits" => codes(value as u32) as f64,
         "counts" => value,
-        _ if value <= 0.0 => return Err(fault("a count of no size does not divide a turn".into())),
+        _ if value <= 0.0 => {
+            return Err(fault(t("a count of no size does not divide a turn").into()));
+        }
         "degrees" => 360.0 / value,
         "arc-seconds" => SECONDS / value,
         _ => around / value,
     };
     if counts < 1.0 {
-        return Err(fault("a turn has less than one such count".into()));
+        return Err(fault(t("a turn has less than one such count").into()));
     }
     if counts > MOST {
-        return Err(fault("a turn has more counts than 48 bits can say".into()));
+        return Err(fault(
+            t("a turn has more counts than 48 bits can say").into(),
+        ));
     }
     // Manuals print steps in few digits: those of 14 bits as 79.1″.
     let rounding = match given.word("given") {
@@ -111,52 +121,54 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     let all = codes(bits) as f64;
     let apart = (all / counts - 1.0).abs();
     let step = 360.0 / counts;
-    let width = Answer::of("bits", "Bits per turn", bits.into(), 2, "bits");
-    let all = rounded(all, 15);
+    let width = Answer::of("bits", t("Bits per turn"), bits.into(), 2, "bits");
+    let all = shown(all, 15);
     let width = match apart {
         0.0 => width,
-        apart if apart <= rounding => width.note(format!("{all} counts, as it was rounded")),
-        _ => width.note(format!(
-            "the next width above: {bits} bits have {all} counts"
+        apart if apart <= rounding => width.note(text!("{} counts, as it was rounded", all)),
+        _ => width.note(text!(
+            "the next width above: {} bits have {} counts",
+            bits,
+            all
         )),
     };
     let within = accuracy / step;
     let trust = Answer::of(
         "counts-within-accuracy",
-        "Counts in ± the accuracy",
+        t("Counts in ± the accuracy"),
         within,
         4,
         "counts",
     );
     let trust = match within > 1.0 {
-        true => trust
-            .tone(Tone::Warn)
-            .note("the last digits repeat well and tell small movements, but not the true angle"),
+        true => trust.tone(Tone::Warn).note(t(
+            "the last digits repeat well and tell small movements, but not the true angle",
+        )),
         false => trust
             .tone(Tone::Good)
-            .note("the resolution is the limit, not the accuracy"),
+            .note(t("the resolution is the limit, not the accuracy")),
     };
     Ok(Outcome::of([
         width,
-        Answer::of("counts", "Counts per turn", counts, 15, ""),
-        Answer::of("degrees", "Degrees per count", step, 6, "°"),
+        Answer::of("counts", t("Counts per turn"), counts, 15, ""),
+        Answer::of("degrees", t("Degrees per count"), step, 6, "°"),
         Answer::of(
             "arc-seconds",
-            "Seconds of arc per count",
+            t("Seconds of arc per count"),
             SECONDS / counts,
             6,
             "″",
         ),
         Answer::of(
             "length",
-            "Way per count at the radius",
+            t("Way per count at the radius"),
             around / counts,
             4,
             "µm",
         ),
         Answer::of(
             "accuracy-length",
-            "Accuracy at the radius, ±",
+            t("Accuracy at the radius, ±"),
             accuracy / 360.0 * around,
             4,
             "µm",

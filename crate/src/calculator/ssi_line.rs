@@ -1,108 +1,101 @@
 //! How fast an encoder can be clocked over a cable, and how often it is read then.
 
+mod answers;
+
 use super::{
-    Answer, Calculator, Fault, Given, Input, Outcome, Tone, Word,
-    quantity::{Measure, rounded},
+    Answer, Calculator, Fault, Given, Input, Outcome, Word,
+    quantity::{Measure, shown},
 };
 use crate::{
     decode::Decoder,
-    explain::grouped,
-    format::{
-        Format, biss_c,
-        timing::{Beyond, MICROSECOND, Positions, Timing},
-    },
+    format::{Format, timing::Timing},
+    language::{msg, t},
     layout::{Resolved, Shape},
     profile::Profile,
+    text,
 };
-use alloc::{format, string::String};
+use answers::{cycle, shift, table, window};
 
 const SSI_TREE: Word = Word {
     name: "ssi-tree",
-    title: "SSI of Pepperl+Fuchs",
+    title: msg("SSI of Pepperl+Fuchs"),
 };
 const SSI: Word = Word {
     name: "ssi",
-    title: "SSI of MPP and PT",
+    title: msg("SSI of MPP and PT"),
 };
 const SSI7: Word = Word {
     name: "ssi7",
-    title: "SSI7 of IP-75",
+    title: msg("SSI7 of IP-75"),
 };
 const BISS_C: Word = Word {
     name: "biss-c",
-    title: "BiSS-C of MPP and PT",
+    title: msg("BiSS-C of MPP and PT"),
 };
-
-/// Lengths in metres, and the highest clock in kilohertz up to each (P+F article, table 2).
-const TABLE: [(f64, f64); 4] = [
-    (50.0, 400.0),
-    (100.0, 300.0),
-    (200.0, 200.0),
-    (400.0, 100.0),
-];
-
-/// Up to here the data come a quarter of a period late: what table 2 promises.
-const SAFE: f64 = 90.0;
-/// From here on the receiver takes the wrong bits (P+F article, long lines).
-const WRONG: f64 = 180.0;
 
 pub(super) const SSI_LINE: Calculator = Calculator {
     name: "ssi-line",
-    title: "SSI line",
-    about: "How late the data come over a cable, which clock that allows, and how often the encoder is read with it.",
-    source: "P+F article, table 2, figure 2 and APCI-1710; IP-75, 5.4.1; MPP and PT, SSI and BiSS-C timing",
+    title: msg("SSI line"),
+    about: msg(
+        "How late the data come over a cable, which clock that allows, and how often the encoder is read with it.",
+    ),
+    source: msg(
+        "P+F article, table 2, figure 2 and APCI-1710; IP-75, 5.4.1; MPP and PT, SSI and BiSS-C timing",
+    ),
     inputs: &[
         Input::number(
             "length",
-            "Cable",
-            "from the controller to the encoder",
+            msg("Cable"),
+            msg("from the controller to the encoder"),
             (Measure::Length, "m"),
             (0.0, 10_000.0),
             "200",
         ),
         Input::number(
             "wire-delay",
-            "Delay of the cable",
-            "of each metre; 6.5 ns/m in the article, and no cable is faster than light",
+            msg("Delay of the cable"),
+            msg("of each metre; 6.5 ns/m in the article, and no cable is faster than light"),
             (Measure::Delay, "ns/m"),
             (3.336, 100.0),
             "6.5",
         ),
         Input::number(
             "encoder-delay",
-            "Delay of the encoder",
-            "of its electronics, T_e; at most 150 ns in the article",
+            msg("Delay of the encoder"),
+            msg("of its electronics, T_e; at most 150 ns in the article"),
             (Measure::Time, "ns"),
             (0.0, 1e5),
             "150",
         ),
         Input::number(
             "receiver-delay",
-            "Delay of the receiver",
-            "T_r; at most 150 ns in the article",
+            msg("Delay of the receiver"),
+            msg("T_r; at most 150 ns in the article"),
             (Measure::Time, "ns"),
             (0.0, 1e5),
             "150",
         ),
         Input::number(
             "clock",
-            "Clock wished",
-            "of the controller",
+            msg("Clock wished"),
+            msg("of the controller"),
             (Measure::Frequency, "kHz"),
             (0.001, 100_000.0),
             "125",
         ),
         Input::word(
             "format",
-            "Format",
-            "decides which clocks and pauses are allowed",
+            msg("Format"),
+            msg("decides which clocks and pauses are allowed"),
             &[SSI_TREE, SSI, SSI7, BISS_C],
             "ssi-tree",
         ),
         Input::number(
             "bits",
-            "Bits of the word",
-            "25 or 13 of P+F, X + 24 or X + 8 of MPP and PT SSI, 30 of SSI7; of BiSS-C from the acknowledge to the CRC, X + 37 or X + 21",
+            msg("Bits of the word"),
+            msg(
+                "25 or 13 of P+F, X + 24 or X + 8 of MPP and PT SSI, 30 of SSI7; of BiSS-C from the acknowledge to the CRC, X + 37 or X + 21",
+            ),
             (Measure::Bits, "bits"),
             (1.0, 256.0),
             "25",
@@ -137,7 +130,7 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     let Some((format, timing)) = chosen.and_then(|format| Some((format, format.timing()?))) else {
         return Err(Fault {
             input: "format",
-            message: "no master clocks this format out".into(),
+            message: t("no master clocks this format out").into(),
         });
     };
     let bits = given.number("bits");
@@ -145,9 +138,12 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
     if bits < least || bits > most {
         return Err(Fault {
             input: "bits",
-            message: format!(
-                "{bits} bits: a word of {} has {least}…{most}",
-                format.title()
+            message: text!(
+                "{} bits: a word of {} has {}…{}",
+                bits,
+                t(format.title()),
+                least,
+                most
             ),
         });
     }
@@ -164,13 +160,13 @@ fn work(given: &Given) -> Result<Outcome, Fault> {
         delay: encoder + 2.0 * wire + receiver,
         clock: given.number("clock"),
     };
-    let sum = format!(
+    let sum = text!(
         "T_e + 2 · T_c + T_r = {} + 2 · {} + {} ns: clock out, data back",
-        rounded(encoder, 6),
-        rounded(wire, 6),
-        rounded(receiver, 6)
+        shown(encoder, 6),
+        shown(wire, 6),
+        shown(receiver, 6)
     );
-    let delay = Answer::of("delay", "Delay of the line", line.delay, 6, "ns").note(sum);
+    let delay = Answer::of("delay", t("Delay of the line"), line.delay, 6, "ns").note(sum);
     let answers = [delay]
         .into_iter()
         .chain(shift(&line))
@@ -214,237 +210,4 @@ fn word_limits(format: Format) -> (f64, f64) {
         ..base
     };
     (len(least) as f64, len(most) as f64)
-}
-
-/// What the delay makes of the clock.
-fn shift(line: &Line) -> [Answer; 4] {
-    let phase = line.phase(line.clock);
-    let (tone, said, why) = match phase {
-        phase if phase < SAFE => (Tone::Good, "safe", "less than a quarter of a period"),
-        phase if phase < WRONG => (
-            Tone::Warn,
-            "works, with no margin",
-            "more than a quarter of a period, less than half of one",
-        ),
-        _ => (
-            Tone::Bad,
-            "wrong bits",
-            "each bit comes when the next one is read, by a controller that reads half a period behind the edge, as in the article",
-        ),
-    };
-    let highest = |name, title: &str, degrees: f64| match line.delay {
-        delay if delay > 0.0 => Answer::of(name, title, degrees / 360.0 * 1e6 / delay, 4, "kHz"),
-        _ => Answer::said(name, title, "any: there is no delay"),
-    };
-    [
-        Answer::of("phase", "Phase shift of the clock wished", phase, 4, "°")
-            .note("the delay in periods of the clock, times 360°")
-            .tone(tone),
-        Answer::said("verdict", "So the clock wished is", said)
-            .note(why)
-            .tone(tone),
-        highest("clock-safe", "Highest clock for 90°", SAFE).note("one period is four delays"),
-        highest("clock-edge", "Highest clock for 180°", WRONG)
-            .note("one period is two delays: nothing may become slower"),
-    ]
-}
-
-/// What the P+F article says of the same length, and where it is at odds with itself.
-fn table(line: &Line) -> [Answer; 4] {
-    let row = TABLE.iter().find(|(length, _)| line.length <= *length);
-    let half = 1e6 / line.clock / 2.0;
-    let sum = line.delay + half;
-    let second = Answer::of("second-sum", "Delay and half a period", sum, 4, "ns").note(format!(
-        "the article's second sum, {} + {}: the data leave the encoder half a period behind the edge that latched",
-        rounded(line.delay, 6),
-        rounded(half, 4)
-    ));
-    let rate = Answer::of("second-sum-clock", "The clock of that sum", 1e6 / sum, 4, "kHz").note(
-        "the article clocks 200 m with 300 kHz, though this sum gives about 220 kHz there and its table 200 kHz: erratum 24",
-    );
-    let (clock, phase) = match row {
-        None => (
-            Answer::said("table-clock", "Highest clock of table 2", "none")
-                .note("table 2 of the P+F article ends at 400 m; the formula above goes on"),
-            Answer::said("table-phase", "Phase shift of that clock", "none"),
-        ),
-        Some(&(length, clock)) => {
-            let shift = line.phase(clock);
-            let edge = match line.length == length {
-                true => "; the row says “less than”, and the article itself takes it for its 200 m",
-                false => "",
-            };
-            let (tone, note) = match shift {
-                shift if shift < SAFE => (Tone::Good, "less than 90°, as the table promises"),
-                shift if shift < WRONG => (
-                    Tone::Warn,
-                    "the table promises less than 90°; its own formula, with all delays, says this",
-                ),
-                _ => (
-                    Tone::Bad,
-                    "the table promises less than 90°; by its own formula, with all delays, the bits would be wrong",
-                ),
-            };
-            (
-                Answer::of("table-clock", "Highest clock of table 2", clock, 4, "kHz")
-                    .note(format!("P+F article, the row to {length} m{edge}")),
-                Answer::of("table-phase", "Phase shift of that clock", shift, 4, "°")
-                    .note(note)
-                    .tone(tone),
-            )
-        }
-    };
-    [clock, phase, second, rate]
-}
-
-/// Which clocks the format allows, and whether the one wished is among them.
-fn window(line: &Line) -> [Answer; 3] {
-    let Line { timing, clock, .. } = line;
-    let (timeout, shortest) = (micros(timing.timeout), micros(timing.silence()));
-    let beyond = match timing.beyond {
-        Beyond::Never => String::new(),
-        Beyond::FirstLow { fastest, low } => format!(
-            "to {} when the first low lasts {} ns or more",
-            hertz(f64::from(fastest)),
-            rounded(micros(low) * 1e3, 6)
-        ),
-        Beyond::Compensated { fastest } => format!(
-            "to {} when the master compensates the delay of the line",
-            hertz(f64::from(fastest))
-        ),
-    };
-    let period = line.period();
-    let asked = clock * 1e3;
-    let too_long = format!("the period of {} µs is not below", rounded(period, 4));
-    let (tone, fits, why) = match asked {
-        asked if asked > f64::from(timing.limit()) => (
-            Tone::Bad,
-            "no",
-            format!("at most {}", hertz(f64::from(timing.limit()))),
-        ),
-        asked if asked > f64::from(timing.fastest) => (Tone::Warn, "conditionally", beyond.clone()),
-        _ if period >= timeout => (
-            Tone::Bad,
-            "no",
-            format!(
-                "{too_long} the time-out of {} µs, and the encoder gives up",
-                rounded(timeout, 4)
-            ),
-        ),
-        asked if asked < f64::from(timing.slowest) => (
-            Tone::Warn,
-            "below the manual's range",
-            format!(
-                "it begins at {}; by the time-out alone the clock would do",
-                hertz(f64::from(timing.slowest))
-            ),
-        ),
-        _ if period >= shortest => (
-            Tone::Warn,
-            "for most encoders",
-            format!(
-                "{too_long} the shortest time-out, {} µs",
-                rounded(shortest, 4)
-            ),
-        ),
-        _ => (Tone::Good, "yes", String::new()),
-    };
-    let lowest = Answer::of(
-        "timeout-clock",
-        "Lowest clock by the time-out",
-        1e3 / timeout,
-        4,
-        "kHz",
-    );
-    let lowest = lowest.note(match shortest < timeout {
-        true => format!(
-            "{}: the period must be shorter; for the shortest, above {} kHz",
-            timing.timeout_text,
-            rounded(1e3 / shortest, 4)
-        ),
-        false => format!("{}: the period must be shorter", timing.timeout_text),
-    });
-    [
-        Answer::said(
-            "window",
-            "Clocks that the format allows",
-            format!(
-                "{}…{}",
-                hertz(f64::from(timing.slowest)),
-                hertz(f64::from(timing.fastest))
-            ),
-        )
-        .note(match beyond.is_empty() {
-            true => timing.source.into(),
-            false => format!("{}; {beyond}", timing.source),
-        }),
-        lowest,
-        Answer::said("clock-fits", "Is the clock wished allowed", fits)
-            .note(why)
-            .tone(tone),
-    ]
-}
-
-/// How long a reading takes, and how often there can be one.
-fn cycle(line: &Line, bits: f64) -> [Answer; 5] {
-    let timing = line.timing;
-    // The encoder answers from the first rising edge on, of BiSS-C from the second.
-    let (idle, why) = match line.format {
-        Format::BissC => (biss_c::IDLE_CLOCKS, "two more than bits"),
-        _ => (1, "one more than bits: the first latches the position"),
-    };
-    let clocks = bits + f64::from(idle);
-    let reading = (clocks - 0.5) * line.period();
-    let pause = micros(timing.pause);
-    let rate = 1e6 / (reading + pause);
-    let update = Answer::of("rate", "Readings a second", rate, 4, "")
-        .note("1 / (reading + pause), as fast as it goes");
-    let positions = "New positions a second";
-    let fresh = match timing.positions {
-        Positions::Unsaid => Answer::said("positions", positions, "every reading")
-            .note("the article names no limit of the encoder"),
-        Positions::MoreThan(own) if rate > f64::from(own) => Answer::said(
-            "positions",
-            positions,
-            format!("more than {}", grouped(own.into())),
-        )
-        .note("the manual promises that and names no limit"),
-        Positions::Of(own) if rate > f64::from(own) => {
-            Answer::of("positions", positions, own.into(), 4, "")
-                .note(format!(
-                    "the encoder is the limit: it takes {} a second, and some are read twice",
-                    grouped(own.into())
-                ))
-                .tone(Tone::Warn)
-        }
-        Positions::Of(own) | Positions::MoreThan(own) => {
-            Answer::of("positions", positions, rate, 4, "").note(format!(
-                "the line is the limit: the encoder takes {} a second",
-                grouped(own.into())
-            ))
-        }
-    };
-    [
-        Answer::of("clocks", "Falling edges", clocks, 4, "").note(why),
-        Answer::of("read-time", "A reading", reading, 4, "µs").note(match line.format {
-            Format::BissC => "from the first falling edge on, half a period behind the last one",
-            _ => "T_rc = n · T + 0.5 · T (IP-75, 5.4.1)",
-        }),
-        Answer::of("pause", "Pause behind it, at least", pause, 4, "µs").note(timing.pause_text),
-        update,
-        fresh,
-    ]
-}
-
-/// Picoseconds in microseconds.
-fn micros(picoseconds: i64) -> f64 {
-    picoseconds as f64 / MICROSECOND as f64
-}
-
-/// A frequency with the unit that suits it.
-fn hertz(frequency: f64) -> String {
-    match frequency {
-        frequency if frequency >= 1e6 => format!("{} MHz", rounded(frequency / 1e6, 4)),
-        frequency => format!("{} kHz", rounded(frequency / 1e3, 4)),
-    }
 }

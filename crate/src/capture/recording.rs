@@ -4,7 +4,7 @@ use super::{
     Clocked, Clocking, Extraction, Reader, Signal, Violation, Wires, extraction::MOST_FRAMES,
     samples::Samples,
 };
-use crate::{decode::Decoder, profile::Profile};
+use crate::{decode::Decoder, language::t, profile::Profile, say};
 use alloc::{string::String, vec::Vec};
 use core::fmt;
 
@@ -66,37 +66,53 @@ pub enum Unreadable {
 impl fmt::Display for Unreadable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotClocked(title) => write!(
+            Self::NotClocked(title) => say!(
                 f,
-                "{title} has no clock: a capture of clock and data is one of SSI or BiSS-C"
+                "{} has no clock: a capture of clock and data is one of SSI or BiSS-C",
+                title
             ),
-            Self::Signals(0) => f.write_str("no signal of 0 and 1 in it"),
+            Self::Signals(0) => f.write_str(t("no signal of 0 and 1 in it")),
             Self::Signals(count) => {
-                write!(f, "{count} signal of 0 and 1 in it: clock and data are two")
+                say!(
+                    f,
+                    "{} signal of 0 and 1 in it: clock and data are two",
+                    count
+                )
             }
-            Self::TooManySignals => write!(
+            Self::TooManySignals => say!(
                 f,
-                "more than {MOST_SIGNALS} signals: export the clock and the data only"
+                "more than {} signals: export the clock and the data only",
+                MOST_SIGNALS
             ),
-            Self::TooManyFrames => write!(
+            Self::TooManyFrames => say!(
                 f,
-                "more than {MOST_FRAMES} frames: export a shorter part of the recording"
+                "more than {} frames: export a shorter part of the recording",
+                MOST_FRAMES
             ),
-            Self::TooManyChanges(room) => write!(
+            Self::TooManyChanges(room) => say!(
                 f,
                 "its changes of level need more than {} MB: export a shorter part of the \
                  recording, or the clock and the data only",
                 room.div_ceil(1_000_000)
             ),
             Self::NoSuchSignal(name, known) => {
-                write!(f, "no signal {name:?}; there are: {}", known.join(", "))
+                say!(
+                    f,
+                    "no signal {}; there are: {}",
+                    format_args!("{name:?}"),
+                    known.join(", ")
+                )
             }
-            Self::Time(line) => write!(f, "line {line}: the time cannot be read or is too far off"),
-            Self::Backwards(line) => write!(f, "line {line}: the time runs backwards"),
-            Self::LongLine(line) => write!(f, "line {line} is too long for a recording"),
-            Self::Deep(line) => write!(f, "line {line}: scopes within scopes without end"),
-            Self::Vcd(message) => write!(f, "VCD: {message}"),
-            Self::NoVcd => f.write_str("VCD is not read here"),
+            Self::Time(line) => say!(
+                f,
+                "line {}: the time cannot be read or is too far off",
+                line
+            ),
+            Self::Backwards(line) => say!(f, "line {}: the time runs backwards", line),
+            Self::LongLine(line) => say!(f, "line {} is too long for a recording", line),
+            Self::Deep(line) => say!(f, "line {}: scopes within scopes without end", line),
+            Self::Vcd(message) => say!(f, "VCD: {}", message),
+            Self::NoVcd => f.write_str(t("VCD is not read here")),
         }
     }
 }

@@ -4,7 +4,11 @@
 //! that are neither 0 nor 1.
 
 use super::{Change, Clocking, Named, Unreadable, recording::MOST_SIGNALS};
-use crate::format::timing::{MICROSECOND, NANOSECOND, SECOND};
+use crate::{
+    format::timing::{MICROSECOND, NANOSECOND, SECOND},
+    language::t,
+    text,
+};
 use alloc::{
     collections::BTreeMap,
     string::{String, ToString},
@@ -57,7 +61,7 @@ impl Queue {
 impl Read for Queue {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.left < buffer.len() {
-            return Err(io::Error::other("a command or name without end"));
+            return Err(io::Error::other(t("a command or name without end")));
         }
         self.left -= buffer.len();
         let count = self.rest().read(buffer)?;
@@ -222,7 +226,7 @@ impl Vcd {
         let ends = error.kind() == io::ErrorKind::UnexpectedEof;
         Unreadable::Vcd(match placed || ends {
             true => error.to_string(),
-            false => alloc::format!("{error} at line {}", self.parser.line()),
+            false => text!("{} at line {}", error, self.parser.line()),
         })
     }
 

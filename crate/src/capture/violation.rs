@@ -1,6 +1,10 @@
 //! What is wrong with the timing of a capture, and where.
 
-use crate::format::timing::{MICROSECOND, NANOSECOND, SECOND, Timing, Words};
+use crate::{
+    format::timing::{MICROSECOND, NANOSECOND, SECOND, Timing, Words},
+    language::{msg, number, t},
+    say,
+};
 use core::fmt;
 
 /// Something that the manual does not allow, or that no encoder can answer to.
@@ -115,22 +119,22 @@ impl ViolationKind {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
-            Self::Slow { .. } => "clock too slow",
-            Self::Fast { .. } => "clock too fast",
-            Self::FirstLow { .. } => "first low too short",
-            Self::Pause { .. } => "pause too short",
-            Self::Timeout { .. } => "time-out out of range",
-            Self::NotReady { .. } => "encoder not ready",
-            Self::Aborted { .. } => "read aborted",
-            Self::Remainder => "rest of an aborted read",
-            Self::Clocks { .. } => "wrong number of clocks",
-            Self::Cut => "cut by the recording",
-            Self::Acknowledge { .. } => "acknowledge of another length",
-            Self::Glitch { .. } => "glitch on the clock",
-            Self::LateData { .. } => "data changes late",
-            Self::DataStuck { .. } => "data line stuck",
-            Self::IdleLow => "clock rests low",
-            Self::Endless { .. } => "clock without a pause",
+            Self::Slow { .. } => msg("clock too slow"),
+            Self::Fast { .. } => msg("clock too fast"),
+            Self::FirstLow { .. } => msg("first low too short"),
+            Self::Pause { .. } => msg("pause too short"),
+            Self::Timeout { .. } => msg("time-out out of range"),
+            Self::NotReady { .. } => msg("encoder not ready"),
+            Self::Aborted { .. } => msg("read aborted"),
+            Self::Remainder => msg("rest of an aborted read"),
+            Self::Clocks { .. } => msg("wrong number of clocks"),
+            Self::Cut => msg("cut by the recording"),
+            Self::Acknowledge { .. } => msg("acknowledge of another length"),
+            Self::Glitch { .. } => msg("glitch on the clock"),
+            Self::LateData { .. } => msg("data changes late"),
+            Self::DataStuck { .. } => msg("data line stuck"),
+            Self::IdleLow => msg("clock rests low"),
+            Self::Endless { .. } => msg("clock without a pause"),
         }
     }
 }
@@ -144,31 +148,31 @@ impl ViolationKind {
 pub struct Duration(pub i64);
 
 /// Writes `value / unit` with up to two decimals.
-fn decimal(f: &mut fmt::Formatter<'_>, value: i128, unit: i128) -> fmt::Result {
+fn decimal(f: &mut fmt::Formatter<'_>, value: i128, unit: i128, name: &'static str) -> fmt::Result {
     let hundredths = (value * 100 + unit / 2) / unit;
     let (whole, rest) = (hundredths / 100, hundredths % 100);
     match (rest % 10, rest) {
-        (_, 0) => write!(f, "{whole}"),
-        (0, _) => write!(f, "{whole}.{}", rest / 10),
-        _ => write!(f, "{whole}.{rest:02}"),
+        (_, 0) => write!(f, "{whole}")?,
+        (0, _) => write!(f, "{}", number(format_args!("{whole}.{}", rest / 10)))?,
+        _ => write!(f, "{}", number(format_args!("{whole}.{rest:02}")))?,
     }
+    write!(f, " {}", t(name))
 }
 
 impl fmt::Display for Duration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let picos = i128::from(self.0.unsigned_abs());
         let units = [
-            (i128::from(SECOND), "s"),
-            (i128::from(SECOND / 1000), "ms"),
-            (i128::from(MICROSECOND), "µs"),
-            (i128::from(NANOSECOND), "ns"),
+            (i128::from(SECOND), msg("s")),
+            (i128::from(SECOND / 1000), msg("ms")),
+            (i128::from(MICROSECOND), msg("µs")),
+            (i128::from(NANOSECOND), msg("ns")),
         ];
         let (unit, name) = units
             .into_iter()
             .find(|(unit, _)| picos >= *unit)
-            .unwrap_or((1, "ps"));
-        decimal(f, picos, unit)?;
-        write!(f, " {name}")
+            .unwrap_or((1, msg("ps")));
+        decimal(f, picos, unit, name)
     }
 }
 
@@ -183,13 +187,12 @@ pub struct Frequency(pub f64);
 impl fmt::Display for Frequency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let hertz = self.0 as i128;
-        let units = [(1_000_000, "MHz"), (1000, "kHz"), (1, "Hz")];
+        let units = [(1_000_000, msg("MHz")), (1000, msg("kHz")), (1, msg("Hz"))];
         let (unit, name) = units
             .into_iter()
             .find(|(unit, _)| hertz >= *unit)
-            .unwrap_or((1, "Hz"));
-        decimal(f, hertz, unit)?;
-        write!(f, " {name}")
+            .unwrap_or((1, msg("Hz")));
+        decimal(f, hertz, unit, name)
     }
 }
 
@@ -201,79 +204,100 @@ impl fmt::Display for Violation {
             pause_text,
             ..
         } = *self.timing;
+        let (source, timeout_text, pause_text) = (t(source), t(timeout_text), t(pause_text));
         let top = |hertz: u32| Frequency(hertz.into());
         match self.kind {
-            ViolationKind::Slow { hertz } => write!(
+            ViolationKind::Slow { hertz } => say!(
                 f,
-                "clock of {}: slower than {} ({source})",
+                "clock of {}: slower than {} ({})",
                 Frequency(hertz),
-                top(self.timing.slowest)
+                top(self.timing.slowest),
+                source
             ),
-            ViolationKind::Fast { hertz } => write!(
+            ViolationKind::Fast { hertz } => say!(
                 f,
-                "clock of {}: faster than {} ({source})",
+                "clock of {}: faster than {} ({})",
                 Frequency(hertz),
-                top(self.timing.limit())
+                top(self.timing.limit()),
+                source
             ),
-            ViolationKind::FirstLow { hertz, low, needed } => write!(
+            ViolationKind::FirstLow { hertz, low, needed } => say!(
                 f,
                 "clock of {} with a first low of {}: faster than {} needs a first low of {} \
-                 ({source})",
+                 ({})",
                 Frequency(hertz),
                 Duration(low),
                 top(self.timing.fastest),
-                Duration(needed)
+                Duration(needed),
+                source
             ),
-            ViolationKind::Pause { measured } => write!(
+            ViolationKind::Pause { measured } => say!(
                 f,
-                "pause of {} before this frame: shorter than {pause_text} ({source})",
-                Duration(measured)
+                "pause of {} before this frame: shorter than {} ({})",
+                Duration(measured),
+                pause_text,
+                source
             ),
             ViolationKind::Timeout { measured } => {
                 let (least, _) = self.timing.returns;
                 let word = if measured < least {
-                    "only"
+                    t("only")
                 } else {
-                    "as late as"
+                    t("as late as")
                 };
-                write!(
+                say!(
                     f,
-                    "the data line is high again {word} {} after the last falling edge: the \
-                     encoder's time-out is {timeout_text} ({source})",
-                    Duration(measured)
+                    "the data line is high again {} {} after the last falling edge: the \
+                     encoder's time-out is {} ({})",
+                    word,
+                    Duration(measured),
+                    timeout_text,
+                    source
                 )
             }
-            ViolationKind::NotReady { measured } => write!(
+            ViolationKind::NotReady { measured } => say!(
                 f,
                 "the data line is still low {} after the last falling edge: the encoder's \
-                 time-out is {timeout_text} ({source})",
-                Duration(measured)
+                 time-out is {} ({})",
+                Duration(measured),
+                timeout_text,
+                source
             ),
-            ViolationKind::Aborted { half } => write!(
+            ViolationKind::Aborted { half } => say!(
                 f,
-                "the clock rests for {} within the frame: longer than {timeout_text}, the encoder \
-                 gives the reading up ({source})",
-                Duration(half)
+                "the clock rests for {} within the frame: longer than {}, the encoder \
+                 gives the reading up ({})",
+                Duration(half),
+                timeout_text,
+                source
             ),
-            ViolationKind::Remainder => write!(
-                f,
+            ViolationKind::Remainder => f.write_str(t(
                 "the rest of the clocks of the reading given up before: they start a reading of \
-                 their own, cut short"
-            ),
+                 their own, cut short",
+            )),
             ViolationKind::Clocks {
                 falling,
                 word,
                 needed,
             } if falling < needed => match falling.checked_sub(1) {
-                Some(bits) if self.clocks_latch() => write!(
+                Some(bits) if self.clocks_latch() => say!(
                     f,
-                    "{falling} falling edges for a {word}-bit word give {bits} bits: send {needed} \
-                     ({source})"
+                    "{} falling edges for a {}-bit word give {} bits: send {} \
+                     ({})",
+                    falling,
+                    word,
+                    bits,
+                    needed,
+                    source
                 ),
-                _ => write!(
+                _ => say!(
                     f,
-                    "{falling} falling edges: a frame of {word} bits from the acknowledge on needs \
-                     {needed} ({source})"
+                    "{} falling edges: a frame of {} bits from the acknowledge on needs \
+                     {} ({})",
+                    falling,
+                    word,
+                    needed,
+                    source
                 ),
             },
             ViolationKind::Clocks {
@@ -282,55 +306,71 @@ impl fmt::Display for Violation {
                 needed,
             } => {
                 let again = match self.timing.words {
-                    Words::Once => "the bits behind the word carry nothing",
-                    Words::Ring => "they do not make the word whole once more",
+                    Words::Once => t("the bits behind the word carry nothing"),
+                    Words::Ring => t("they do not make the word whole once more"),
                 };
-                write!(
+                say!(
                     f,
-                    "{falling} falling edges for a {word}-bit word, {} more than the {needed} it \
-                     needs: {again} ({source})",
-                    falling - needed
+                    "{} falling edges for a {}-bit word, {} more than the {} it \
+                     needs: {} ({})",
+                    falling,
+                    word,
+                    falling - needed,
+                    needed,
+                    again,
+                    source
                 )
             }
-            ViolationKind::Cut => f.write_str("the recording begins or ends within this frame"),
+            ViolationKind::Cut => f.write_str(t("the recording begins or ends within this frame")),
             ViolationKind::Acknowledge {
                 bits,
                 expected,
                 before,
             } => {
-                write!(f, "acknowledge of {bits} clocks: {expected} in the profile")?;
+                say!(
+                    f,
+                    "acknowledge of {} clocks: {} in the profile",
+                    bits,
+                    expected
+                )?;
                 match before {
-                    Some(before) => write!(f, ", {before} in the frame before"),
+                    Some(before) => say!(f, ", {} in the frame before", before),
                     None => Ok(()),
                 }
             }
-            ViolationKind::Glitch { width, half } => write!(
+            ViolationKind::Glitch { width, half } => say!(
                 f,
                 "clock pulse of {} where half a period lasts {}: left out of the bits; whether the \
                  encoder counted it, only a checksum tells",
                 Duration(width),
                 Duration(half)
             ),
-            ViolationKind::LateData { delay, high, times } => write!(
+            ViolationKind::LateData { delay, high, times } => say!(
                 f,
                 "data changes {} after the rising edge, the falling edge that reads it comes after \
-                 {}, {times} times in this frame: lower the clock or shorten the cable ({source})",
+                 {}, {} times in this frame: lower the clock or shorten the cable ({})",
                 Duration(delay),
-                Duration(high)
+                Duration(high),
+                times,
+                source
             ),
-            ViolationKind::DataStuck { level } => write!(
+            ViolationKind::DataStuck { level } => say!(
                 f,
                 "the data line stays {} during the whole frame: no encoder answers",
                 u8::from(level)
             ),
-            ViolationKind::IdleLow => write!(
+            ViolationKind::IdleLow => say!(
                 f,
-                "the clock rests low before this frame: it must rest high ({source}); the wire may \
-                 be the inverted one of its pair"
+                "the clock rests low before this frame: it must rest high ({}); the wire may \
+                 be the inverted one of its pair",
+                source
             ),
-            ViolationKind::Endless { clocks } => write!(
+            ViolationKind::Endless { clocks } => say!(
                 f,
-                "{clocks} clocks without a pause of {pause_text} ({source})"
+                "{} clocks without a pause of {} ({})",
+                clocks,
+                pause_text,
+                source
             ),
         }
     }

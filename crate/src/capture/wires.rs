@@ -1,5 +1,6 @@
 //! Which signal of a recording is the clock and which the data.
 
+use crate::say;
 use alloc::{
     string::{String, ToString},
     vec::Vec,
@@ -103,33 +104,41 @@ pub enum Reason {
 impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Asked(name) => write!(f, "{name}: as asked for"),
-            Self::Named(name) => write!(f, "{name}: by its name"),
-            Self::Regular { name, edges } => write!(
+            Self::Asked(name) => say!(f, "{}: as asked for", name),
+            Self::Named(name) => say!(f, "{}: by its name", name),
+            Self::Regular { name, edges } => say!(
                 f,
-                "{name} is the clock: it changes most often and in regular bursts ({edges} edges)"
+                "{} is the clock: it changes most often and in regular bursts ({} edges)",
+                name,
+                edges
             ),
-            Self::Follows { name, edges } => write!(
+            Self::Follows { name, edges } => say!(
                 f,
-                "{name} is the data: it changes less often than the clock ({edges} edges)"
+                "{} is the data: it changes less often than the clock ({} edges)",
+                name,
+                edges
             ),
-            Self::Swapped { clock, data } => write!(
+            Self::Swapped { clock, data } => say!(
                 f,
-                "clock and data are swapped: {data} has the regular bursts of a clock, {clock} has \
-                 not"
+                "clock and data are swapped: {} has the regular bursts of a clock, {} has \
+                 not",
+                data,
+                clock
             ),
-            Self::ClockRestsLow(name) => write!(
+            Self::ClockRestsLow(name) => say!(
                 f,
-                "{name} rests low: read upside down, as the inverted wire of its pair; if it is \
-                 not, the master's clock must rest high (CPOL 1)"
+                "{} rests low: read upside down, as the inverted wire of its pair; if it is \
+                 not, the master's clock must rest high (CPOL 1)",
+                name
             ),
-            Self::DataRestsLow(name) => write!(
+            Self::DataRestsLow(name) => say!(
                 f,
-                "{name} rests low: read upside down, as the inverted wire of its pair"
+                "{} rests low: read upside down, as the inverted wire of its pair",
+                name
             ),
             Self::Still { name, level } => match level {
-                Some(level) => write!(f, "{name} never changes, it stays {}", u8::from(*level)),
-                None => write!(f, "{name} never has a level"),
+                Some(level) => say!(f, "{} never changes, it stays {}", name, u8::from(*level)),
+                None => say!(f, "{} never has a level", name),
             },
         }
     }

@@ -1,8 +1,12 @@
 //! CRCs described by their parameters, and those that sensors are known to use.
 
 use super::{BISS, X97, XOR};
-use crate::bits::{self, Bits, Polynomial, Span};
-use alloc::vec::Vec;
+use crate::{
+    bits::{self, Bits, Polynomial, Span},
+    language::t,
+    say,
+};
+use alloc::{format, vec::Vec};
 use core::fmt;
 
 /// The parameters of a CRC (R. N. Williams, "A painless guide to CRC error detection
@@ -229,27 +233,30 @@ impl fmt::Display for Algorithm {
     /// The usual name with the polynomial, or all parameters.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let digits = self.width.div_ceil(4) as usize;
+        let hex = |number: u64| format!("{number:0digits$X}");
         if *self == Self::of_u8(&XOR) {
-            return f.write_str("exclusive or of all bytes");
+            return f.write_str(t("exclusive or of all bytes"));
         }
         if let Some(name) = self.name() {
-            return write!(f, "{name} (polynomial 0x{:0digits$X})", self.polynomial);
+            return say!(f, "{} (polynomial 0x{})", name, hex(self.polynomial));
         }
-        write!(
+        say!(
             f,
-            "CRC-{} with polynomial 0x{:0digits$X}, start 0x{:0digits$X}",
-            self.width, self.polynomial, self.init
+            "CRC-{} with polynomial 0x{}, start 0x{}",
+            self.width,
+            hex(self.polynomial),
+            hex(self.init)
         )?;
         match (self.refin, self.refout) {
             (false, false) => {}
-            (true, true) => f.write_str(", reflected")?,
-            (true, false) => f.write_str(", bytes reflected")?,
-            (false, true) => f.write_str(", result reflected")?,
+            (true, true) => f.write_str(t(", reflected"))?,
+            (true, false) => f.write_str(t(", bytes reflected"))?,
+            (false, true) => f.write_str(t(", result reflected"))?,
         }
         match self.xorout {
             0 => Ok(()),
-            all if all == bits::mask(self.width as usize) => f.write_str(", inverted"),
-            other => write!(f, ", result changed by 0x{other:0digits$X}"),
+            all if all == bits::mask(self.width as usize) => f.write_str(t(", inverted")),
+            other => say!(f, ", result changed by 0x{}", hex(other)),
         }
     }
 }

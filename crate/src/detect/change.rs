@@ -5,6 +5,8 @@ use crate::{
     bits::BitString,
     dump::{self, Dump},
     format::Medium,
+    language::t,
+    text,
 };
 use alloc::{
     format,
@@ -35,26 +37,29 @@ impl Change {
     pub fn sentence(self) -> String {
         match self {
             Self::Reversed => {
-                "the bits of every byte are reversed: the capture was taken last bit first"
+                t("the bits of every byte are reversed: the capture was taken last bit first")
                     .to_string()
             }
             Self::Inverted => {
-                "all bits are inverted: A and B, or + and −, of the data line are swapped"
+                t("all bits are inverted: A and B, or + and −, of the data line are swapped")
                     .to_string()
             }
             Self::ClockEarly => {
-                "every line begins one clock too early: its first bit is not of the word"
+                t("every line begins one clock too early: its first bit is not of the word")
                     .to_string()
             }
             Self::ClockLate => {
-                "every line begins one clock too late: the first bit of the word is missing"
+                t("every line begins one clock too late: the first bit of the word is missing")
                     .to_string()
             }
             Self::MissingByte(byte) => {
-                format!("the first byte of every line is missing: it was 0x{byte:02X}")
+                text!(
+                    "the first byte of every line is missing: it was 0x{}",
+                    format_args!("{byte:02X}")
+                )
             }
             Self::HexText => {
-                "the bytes are letters: hexadecimal digits that were sent as text".to_string()
+                t("the bytes are letters: hexadecimal digits that were sent as text").to_string()
             }
         }
     }

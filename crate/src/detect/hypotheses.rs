@@ -40,7 +40,6 @@ pub(super) const fn unusual(profile: &Profile) -> i32 {
                 UNUSUAL
             }
         }
-        Format::Asi1 | Format::Asi4 => 0,
         Format::Ssi7 => 1,
         Format::SsiTree => {
             let parity = if matches!(profile.parity, Parity::None) {
@@ -71,6 +70,7 @@ pub(super) const fn unusual(profile: &Profile) -> i32 {
             1 + parity + right + long + if turns > angle { turns } else { angle }
         }
         Format::Own => 5,
+        _ => 0,
     }
 }
 
@@ -88,6 +88,11 @@ pub(super) fn of(sample: &Sample) -> Vec<Profile> {
         }
     }
     shipped(sample, &mut all);
+    all.extend(
+        Format::ALL
+            .iter()
+            .flat_map(|format| format.manual().guesses),
+    );
     all.retain(|profile| profile.check().is_ok());
     all
 }

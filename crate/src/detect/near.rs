@@ -4,7 +4,7 @@ use super::{
     Candidate, Change, LEAD, hypotheses, rank,
     sample::{Sample, lines},
 };
-use crate::{dump::Dump, format::Medium, profile::Profile};
+use crate::{dump::Dump, format::Medium, profile::Profile, text};
 use alloc::{collections::BTreeMap, format, string::String, vec::Vec};
 
 /// What fits a dump better than the profile that was chosen, or nearly as well.
@@ -91,15 +91,16 @@ fn sentence(chosen: &Profile, candidate: &Candidate) -> String {
     let skip = usize::from(candidate.change.is_some());
     let why = candidate.evidence.get(skip).map_or("", String::as_str);
     match (candidate.change, differs.is_empty()) {
-        (Some(change), true) => format!("{}; then {why}", change.sentence()),
+        (Some(change), true) => text!("{}; then {}", change.sentence(), why),
         (Some(change), false) => {
-            format!(
-                "{}; then with {} {why}",
+            text!(
+                "{}; then with {} {}",
                 change.sentence(),
-                differs.join(", ")
+                differs.join(", "),
+                why
             )
         }
-        (None, _) => format!("with {} {why}", differs.join(", ")),
+        (None, _) => text!("with {} {}", differs.join(", "), why),
     }
 }
 

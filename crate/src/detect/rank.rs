@@ -5,9 +5,14 @@ use super::{
     sample::Sample,
     weigh::{CHANCE, FEW, LINES, is_one_number, weigh},
 };
-use crate::{bits, format::Format, profile::Profile};
+use crate::{
+    bits,
+    format::Format,
+    language::{msg, t},
+    profile::Profile,
+    text,
+};
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -25,11 +30,11 @@ const MOVED_FRAMES: i32 = 8;
 const MOST: usize = 24;
 
 /// What one frame, or a shaft that stands still, calls for.
-const MORE: &str = "more frames, of a turning shaft, would decide";
+const MORE: &str = msg("more frames, of a turning shaft, would decide");
 
 /// What no frame tells of a number without anything between turns and angle.
 const SIDE_BY_SIDE: &str =
-    "turns and angle stand side by side: how many bits are turns only the data sheet says";
+    msg("turns and angle stand side by side: how many bits are turns only the data sheet says");
 
 /// Tries one profile on a sample.
 pub(super) fn tried(profile: Profile, sample: &Sample) -> Option<Candidate> {
@@ -87,12 +92,12 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
     let close = rivals()
         .filter(|rival| leader.score - rival.score < LEAD)
         .count();
-    let undecided: Vec<String> = decides(
+    let undecided = decides(
         &leader,
         rivals().filter(|rival| leader.score - rival.score < SAFE_LEAD),
     );
     let verdict = match alone(&leader, lead) {
-        Verdict::Likely if undecided.iter().any(|said| said == SIDE_BY_SIDE) => Verdict::Ambiguous,
+        Verdict::Likely if undecided.contains(&Decider::DataSheet) => Verdict::Ambiguous,
         verdict => verdict,
     };
     found.truncate(MOST);
@@ -108,12 +113,13 @@ pub(super) fn ranked(mut found: Vec<Candidate>) -> Vec<Candidate> {
         };
         if candidate.verdict == Verdict::Ambiguous && close > 0 {
             candidate.evidence.push(match close {
-                1 => "another reading fits as well".to_string(),
-                more => format!("{more} other readings fit as well"),
+                1 => t("another reading fits as well").to_string(),
+                more => text!("{} other readings fit as well", more),
             });
         }
         if candidate.verdict != Verdict::Unlikely {
-            candidate.evidence.extend(undecided.iter().cloned());
+            let said = undecided.iter().map(Decider::sentence);
+            candidate.evidence.extend(said);
         }
     }
     name_alike(&mut found);
@@ -174,15 +180,15 @@ fn name_alike(found: &mut [Candidate]) {
     let clocked = is_one_number(&leader.profile);
     let alike = others.iter().filter(|other| reads_alike(leader, other));
     for other in alike.filter(|other| is_one_number(&other.profile) == clocked) {
-        let name = other.profile.title();
-        if name != leader.profile.title() && !names.contains(&name) {
+        let name = t(other.profile.title());
+        if name != t(leader.profile.title()) && !names.contains(&name) {
             names.push(name);
         }
     }
     if !names.is_empty() {
         leader
             .evidence
-            .push(format!("{} would read the same", names.join(" and ")));
+            .push(text!("{} would read the same", names.join(t(" and "))));
     }
 }
 
@@ -197,71 +203,103 @@ fn name_mixed(found: &mut [Candidate]) {
         format && is_strong(other) && other.covered * 4 > leader.strange * 3
     });
     if let Some(other) = rest.next().filter(|_| many) {
-        let of = |title: &str| format!("two formats are mixed: the rest are frames of {title}");
-        leader.evidence.insert(0, of(other.profile.title()));
-        other.evidence.insert(0, of(leader.profile.title()));
+        let of = |title: &str| text!("two formats are mixed: the rest are frames of {}", title);
+        leader.evidence.insert(0, of(t(other.profile.title())));
+        other.evidence.insert(0, of(t(leader.profile.title())));
         if leader.verdict == Verdict::Certain {
             leader.verdict = Verdict::Likely;
         }
     }
 }
 
-/// What sample would decide between the best candidate and its rivals.
-fn decides<'a>(leader: &Candidate, rivals: impl Iterator<Item = &'a Candidate>) -> Vec<String> {
-    let mut said: Vec<String> = Vec::new();
-    if leader.distinct < 3 || !leader.checked && leader.distinct < FEW {
-        said.push(MORE.to_string());
-    }
-    for rival in rivals {
-        let sentence = between(leader, rival);
-        if !said.contains(&sentence) {
-            said.push(sentence);
-        }
-    }
-    said
+/// What would decide between readings.
+#[derive(Debug, PartialEq, Eq)]
+enum Decider {
+    /// More frames, of a turning shaft.
+    More,
+    /// No frame, but the data sheet: turns and angle stand side by side.
+    DataSheet,
+    /// A sample of which this is said.
+    Sample(String),
 }
 
-fn between(leader: &Candidate, rival: &Candidate) -> String {
+impl Decider {
+    fn sentence(&self) -> String {
+        match self {
+            Self::More => t(MORE).to_string(),
+            Self::DataSheet => t(SIDE_BY_SIDE).to_string(),
+            Self::Sample(sentence) => sentence.clone(),
+        }
+    }
+}
+
+/// What would decide between the best candidate and its rivals.
+fn decides<'a>(leader: &Candidate, rivals: impl Iterator<Item = &'a Candidate>) -> Vec<Decider> {
+    let mut all: Vec<Decider> = Vec::new();
+    if leader.distinct < 3 || !leader.checked && leader.distinct < FEW {
+        all.push(Decider::More);
+    }
+    for rival in rivals {
+        let decider = between(leader, rival);
+        if !all.contains(&decider) {
+            all.push(decider);
+        }
+    }
+    all
+}
+
+fn between(leader: &Candidate, rival: &Candidate) -> Decider {
     let (one, other) = (&leader.profile, &rival.profile);
     let same = one.format == other.format;
     if leader.distinct < 3 {
-        return MORE.to_string();
+        return Decider::More;
     }
     let spread = |profile: &Profile| profile.angle_bits + profile.turns_bits;
     let narrow = spread(one).min(spread(other));
     let wide = one.angle_bits.max(other.angle_bits);
     if same && spread(one) != spread(other) && one.format == Format::Ssi && narrow > wide {
-        return format!(
+        return Decider::Sample(text!(
             "frames with turns of at least {} would decide",
             bits::codes(narrow - wide)
-        );
+        ));
     }
     if same && one.command != other.command {
-        return "whether it is a temperature or a speed shows when the shaft stands and turns"
-            .to_string();
+        return Decider::Sample(
+            t("whether it is a temperature or a speed shows when the shaft stands and turns")
+                .to_string(),
+        );
     }
     if same && one.angle_bits != other.angle_bits && one.code == other.code && is_one_number(one) {
-        return SIDE_BY_SIDE.to_string();
+        return Decider::DataSheet;
     }
     if same && one.turns_bits != other.turns_bits && one.angle_bits == other.angle_bits {
         let least = one.turns_bits.min(other.turns_bits);
-        return format!(
+        return Decider::Sample(text!(
             "frames with turns of at least {} would decide",
             bits::codes(least)
-        );
+        ));
     }
     if same && one.status_bits != other.status_bits && one.format == Format::BissC {
-        return "a capture with a status bit set, or of a turning shaft, would decide".to_string();
+        return Decider::Sample(
+            t("a capture with a status bit set, or of a turning shaft, would decide").to_string(),
+        );
     }
     if same && one.angle_bits != other.angle_bits && leader.motion.wraps == 0 {
-        return "turn the shaft through zero: then the width of the angle shows".to_string();
+        return Decider::Sample(
+            t("turn the shaft through zero: then the width of the angle shows").to_string(),
+        );
     }
     if leader.motion.smooth == 0 {
-        return "the shaft stands still: frames of a turning shaft would decide".to_string();
+        return Decider::Sample(
+            t("the shaft stands still: frames of a turning shaft would decide").to_string(),
+        );
     }
     let rival = match one.format == other.format {
-        true => "another reading of the same format".to_string(),
-        false => other.title().to_string(),
+        true => t("another reading of the same format").to_string(),
+        false => t(other.title()).to_string(),
     };
-    format!("{rival} fits nearly as well; more frames of a turning shaft would decide")
+    Decider::Sample(text!(
+        "{} fits nearly as well; more frames of a turning shaft would decide",
+        rival
+    ))
 }

@@ -13,8 +13,10 @@ use crate::{
     crc_search::{ByteOrder, FEWEST, Found, LONGEST, Sum, search},
     dump::Dump,
     format::{Format, Medium},
+    language::t,
     profile::Profile,
     reading::Values,
+    text,
 };
 use alloc::{
     format,
@@ -79,14 +81,14 @@ fn proposed(
     candidate.verdict = Verdict::Unlikely;
     candidate.untidy = true;
     let mut evidence = Vec::from([
-        "no known format fits; a checksum was found in the frames".to_string(),
+        t("no known format fits; a checksum was found in the frames").to_string(),
         found.to_string(),
     ]);
     evidence.extend(inverted(found));
-    evidence.push(format!("by chance 1 in 2^{}", found.evidence));
+    evidence.push(text!("by chance 1 in 2^{}", found.evidence));
     evidence.push(match angle {
-        Some(_) => "the angle stands where the frames go on from one another".to_string(),
-        None => "where the angle stands cannot be seen: turn the shaft".to_string(),
+        Some(_) => t("the angle stands where the frames go on from one another").to_string(),
+        None => t("where the angle stands cannot be seen: turn the shaft").to_string(),
     });
     candidate.evidence = evidence;
     Some(candidate)
@@ -109,8 +111,8 @@ fn inverted(found: &Found) -> Option<String> {
     let own: Algorithm = sum.algorithm()?;
     let plain = own.xorout == 0;
     (own.xorout != crc.xorout).then(|| match plain {
-        true => format!("the CRC of {name}, but inverted"),
-        false => format!("the CRC of {name}, but not inverted"),
+        true => text!("the CRC of {}, but inverted", name),
+        false => text!("the CRC of {}, but not inverted", name),
     })
 }
 

@@ -13,10 +13,11 @@ use crate::{
     dump::Dump,
     format::{Format, Medium},
     framing::Why,
+    language::t,
     profile::{Code, Profile},
+    text,
 };
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -132,18 +133,20 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     let proved = count.saturating_mul(counted.check_bits);
     let bad = summary.frames - counted.good - unsettled - others;
     if counted.check_bits > 0 {
-        evidence.push(format!(
+        evidence.push(text!(
             "the check holds in {} of {} frames",
-            counted.good, summary.frames
+            counted.good,
+            summary.frames
         ));
         if counted.distinct.len() as u64 != counted.good {
-            evidence.push(format!("{count} of them are distinct"));
+            evidence.push(text!("{} of them are distinct", count));
         }
-        evidence.push(format!("by chance 1 in 2^{proved}"));
+        evidence.push(text!("by chance 1 in 2^{}", proved));
     } else {
-        evidence.push(format!(
+        evidence.push(text!(
             "{} of {} lines have its form; it has no check",
-            counted.good, summary.frames
+            counted.good,
+            summary.frames
         ));
     }
     let unusual = unusual(&profile) + beside(&profile, dump);
@@ -156,7 +159,7 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
     score -= against.min(score.max(0) / 4 * 3 + bad as i32 / 2);
     if !placed {
         score = score.min(LIKELY);
-        evidence.push("where its frames begin is not certain".to_string());
+        evidence.push(t("where its frames begin is not certain").to_string());
     }
     let mut turned_round = false;
     if profile.angle_bits > 8 && profile.medium() == Medium::Bytes {
@@ -164,16 +167,16 @@ pub(crate) fn weigh(profile: Profile, dump: &Dump) -> Option<Candidate> {
         if other.gain > motion.gain / 2 * 3 {
             score -= SWAPPED;
             turned_round = true;
-            let why = "the angle is continuous only with its bytes in the other order";
+            let why = t("the angle is continuous only with its bytes in the other order");
             evidence.insert(0, why.to_string());
         }
     }
     if counted.requests > 0 {
         score += ASKED;
-        evidence.push(format!("{} requests stand between them", counted.requests));
+        evidence.push(text!("{} requests stand between them", counted.requests));
     }
     if strange > 0 {
-        evidence.push(format!("{strange} bytes belong to no frame"));
+        evidence.push(text!("{} bytes belong to no frame", strange));
     }
     score += fits(&counted, &profile, &mut evidence);
     // Without a check, words of the right length that stand still may be anything.
@@ -245,30 +248,34 @@ fn beside(profile: &Profile, dump: &Dump) -> i32 {
 fn moves(motion: &Motion, counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32 {
     let mut score = motion.gain;
     if motion.counts && counted.check_bits == 0 {
-        evidence.push("every step is the same, as those of a counter are".to_string());
+        evidence.push(t("every step is the same, as those of a counter are").to_string());
         return -COUNTER;
     }
     let goes_on = motion.smooth > 0 && motion.smooth * 2 >= motion.steps;
     if goes_on {
-        evidence.push(format!(
-            "the position is continuous: {} of {} steps go on from those before, by chance 1 in 2^{}",
-            motion.smooth, motion.steps, motion.gain
+        evidence.push(text!(
+            "the position is continuous: {} of {} steps go on from those before, by chance 1 in \
+             2^{}",
+            motion.smooth,
+            motion.steps,
+            motion.gain
         ));
     } else if motion.steps > 0 {
         evidence.push(match motion.jumps {
-            0 => "the shaft hardly moves".to_string(),
-            jumps => format!("the position jumps in {jumps} of {} steps", motion.steps),
+            0 => t("the shaft hardly moves").to_string(),
+            jumps => text!("the position jumps in {} of {} steps", jumps, motion.steps),
         });
     } else {
-        evidence.push("the shaft stands still".to_string());
+        evidence.push(t("the shaft stands still").to_string());
     }
     if motion.turned > 0 && !is_one_number(profile) {
         let times = motion.turned;
-        evidence.push(format!(
-            "the turns step with the wrap of the angle, {times} times"
+        evidence.push(text!(
+            "the turns step with the wrap of the angle, {} times",
+            times
         ));
     } else if motion.wraps > 0 {
-        evidence.push(format!("the angle passes zero {} times", motion.wraps));
+        evidence.push(text!("the angle passes zero {} times", motion.wraps));
     }
     if motion.unset > 0 {
         let jumps = motion.jumps.min(6) as i32;
@@ -279,9 +286,12 @@ fn moves(motion: &Motion, counted: &Counted, profile: &Profile, evidence: &mut V
             _ => against,
         };
         evidence.push(match motion.unset {
-            1 => "the top bit of the angle was never seen set: it may be narrower".to_string(),
+            1 => t("the top bit of the angle was never seen set: it may be narrower").to_string(),
             many => {
-                format!("the top {many} bits of the angle were never seen set: it may be narrower")
+                text!(
+                    "the top {} bits of the angle were never seen set: it may be narrower",
+                    many
+                )
             }
         });
     }
@@ -293,8 +303,8 @@ fn moves(motion: &Motion, counted: &Counted, profile: &Profile, evidence: &mut V
         let each = (counted.distinct.len() as u32 - 1).min(most);
         score -= (motion.stuck * each) as i32;
         evidence.push(match motion.stuck {
-            1 => "the lowest bit of the angle never changes".to_string(),
-            many => format!("the lowest {many} bits of the angle never change"),
+            1 => t("the lowest bit of the angle never changes").to_string(),
+            many => text!("the lowest {} bits of the angle never change", many),
         });
     }
     score
@@ -310,14 +320,14 @@ fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32
     let mut score = 0;
     if counted.preamble {
         score += PREAMBLE;
-        evidence.push("the lines begin with the preamble of these encoders".to_string());
+        evidence.push(t("the lines begin with the preamble of these encoders").to_string());
     } else if counted.started {
         score += STARTED;
-        evidence.push("the lines begin with an acknowledge and a start bit".to_string());
+        evidence.push(t("the lines begin with an acknowledge and a start bit").to_string());
     }
     if counted.named {
         score += NAMED;
-        evidence.push(format!(
+        evidence.push(text!(
             "the encoder identity says {} bits",
             profile.angle_bits
         ));
@@ -328,12 +338,12 @@ fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32
     }
     if profile.format == Format::Asi4 && counted.good >= 4 {
         score += LINES;
-        evidence.push("every line is digits with CR and LF".to_string());
+        evidence.push(t("every line is digits with CR and LF").to_string());
     }
     let single = matches!(profile.format, Format::Asi1 | Format::Ssi7);
     if single && profile.angle_bits == profile.format.default_profile().angle_bits {
         score += OWN_WIDTH;
-        evidence.push("the width of the IP-75".to_string());
+        evidence.push(t("the width of the IP-75").to_string());
     }
     if counted.changes > 0 {
         let against = counted.changes.saturating_mul(FLICKERS);
@@ -342,14 +352,14 @@ fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32
             0 | 1 => against,
             _ => against.min(FLICKERS_MOST),
         };
-        evidence.push(format!(
+        evidence.push(text!(
             "bits beside the position change {} times",
             counted.changes
         ));
     }
     if counted.both * 2 > counted.good && counted.good > 0 {
         score -= BOTH;
-        evidence.push("error and warning are set together".to_string());
+        evidence.push(t("error and warning are set together").to_string());
     }
     if let Some(more) = counted
         .addresses
@@ -358,7 +368,7 @@ fn fits(counted: &Counted, profile: &Profile, evidence: &mut Vec<String>) -> i32
         .filter(|more| *more > 0)
     {
         score -= more as i32 * ADDRESS;
-        evidence.push(format!("{} addresses answer", more + 1));
+        evidence.push(text!("{} addresses answer", more + 1));
     }
     score
 }

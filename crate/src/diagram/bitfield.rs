@@ -19,9 +19,11 @@ use crate::{
     bits::{self, Span},
     check::Checksum,
     format::own::{self, CrcRule, Draft, Framing, Kind, MOST_FIELDS, Written},
+    language::t,
     layout::{Class, Coding, Covered, Field, Part, Resolved, Role},
     profile::Choice,
     record::{Record, Value},
+    text,
 };
 use alloc::{
     format,
@@ -227,9 +229,9 @@ pub fn read(text: &str, title: &str, framing: Framing) -> Result<Written, Unread
         other => Some(other),
     };
     let Some(Value::List(entries)) = list else {
-        return Err(Unreadable::whole(
+        return Err(Unreadable::whole(t(
             "a bit field is a list of fields, or {reg: […]}",
-        ));
+        )));
     };
     let mut sent = Vec::new();
     for (index, entry) in entries.iter().rev().enumerate() {
@@ -238,15 +240,17 @@ pub fn read(text: &str, title: &str, framing: Framing) -> Result<Written, Unread
         };
         let field = field(entry).map_err(|why| {
             let number = entries.len() - index;
-            Unreadable::whole(format!("field {number}: {why}"))
+            Unreadable::whole(text!("field {}: {}", number, why))
         })?;
         sent.extend(field);
     }
     let fields = joined(&sent);
     if fields.is_empty() || fields.len() > MOST_FIELDS {
         let count = fields.len();
-        return Err(Unreadable::whole(format!(
-            "{count} fields; a layout has 1…{MOST_FIELDS}"
+        return Err(Unreadable::whole(text!(
+            "{} fields; a layout has 1…{}",
+            count,
+            MOST_FIELDS
         )));
     }
     let title = plain(title);
@@ -267,7 +271,7 @@ fn field(entry: &Record) -> Result<Option<Sent>, String> {
         Some(Value::Int(bits)) => u32::try_from(*bits).ok().filter(|bits| *bits > 0),
         _ => None,
     };
-    let width = width.ok_or("bits must be a number of bits")?;
+    let width = width.ok_or(t("bits must be a number of bits"))?;
     let attr = match entry.find("attr") {
         Some(Value::Text(text)) => text.as_str(),
         _ => "",
@@ -290,7 +294,7 @@ fn field(entry: &Record) -> Result<Option<Sent>, String> {
     let kind = of_name(&name, width);
     let (_, most) = kind.widths();
     if width > most {
-        return Err(format!("{width} bits are more than {most}"));
+        return Err(text!("{} bits are more than {}", width, most));
     }
     let mut draft = Draft::new(kind, width);
     if !name.is_empty() && name != kind.name() {

@@ -3,6 +3,8 @@
 use crate::{
     capture::{Duration, Frequency},
     format::timing::{Beyond, MICROSECOND, Timing},
+    language::{msg, t},
+    text,
 };
 use alloc::{
     format,
@@ -47,18 +49,18 @@ impl Clock {
         let (slowest, fastest) = (speed(timing.slowest), speed(timing.fastest));
         let beyond = match timing.beyond {
             Beyond::Never => String::new(),
-            Beyond::FirstLow { fastest, low } => format!(
+            Beyond::FirstLow { fastest, low } => text!(
                 ", up to {} with a first low of {}",
                 speed(fastest),
                 Duration(low)
             ),
-            Beyond::Compensated { fastest } => format!(
+            Beyond::Compensated { fastest } => text!(
                 ", up to {} where the master compensates the delay of the line",
                 speed(fastest)
             ),
         };
         let mut limits = Vec::from([Limit {
-            name: "clock",
+            name: msg("clock"),
             text: format!("{slowest}…{fastest}{beyond}"),
             source,
             value: speed(hertz),
@@ -69,8 +71,8 @@ impl Clock {
             && hertz > timing.fastest
         {
             limits.push(Limit {
-                name: "first low",
-                text: format!("{} above {fastest}", Duration(low)),
+                name: msg("first low"),
+                text: text!("{} above {}", Duration(low), fastest),
                 source,
                 value: Duration(self.first_low).to_string(),
                 holds: self.first_low >= low,
@@ -79,13 +81,13 @@ impl Clock {
         }
         let rest = self.half.max(self.first_low);
         limits.push(Limit {
-            name: "time-out",
-            text: format!(
+            name: msg("time-out"),
+            text: text!(
                 "{}: the encoder gives the reading up when the clock rests so long",
-                timing.timeout_text
+                t(timing.timeout_text)
             ),
             source,
-            value: format!("the clock rests for {}", Duration(rest)),
+            value: text!("the clock rests for {}", Duration(rest)),
             holds: rest < timing.silence(),
             at: (
                 self.last_fall,
@@ -93,8 +95,8 @@ impl Clock {
             ),
         });
         limits.push(Limit {
-            name: "pause",
-            text: timing.pause_text.into(),
+            name: msg("pause"),
+            text: t(timing.pause_text).into(),
             source,
             value: Duration(self.pause).to_string(),
             holds: self.pause >= timing.pause,
@@ -109,10 +111,10 @@ pub(super) fn interval(source: &'static str, interval: u64, at: (i64, i64)) -> L
     let every = micros(interval);
     let lasts = at.1.saturating_sub(at.0);
     Limit {
-        name: "interval",
-        text: format!("a frame every {}", Duration(every)),
+        name: msg("interval"),
+        text: text!("a frame every {}", Duration(every)),
         source,
-        value: format!("a frame lasts {}", Duration(lasts)),
+        value: text!("a frame lasts {}", Duration(lasts)),
         holds: lasts <= every,
         at: (at.0, at.0.saturating_add(every)),
     }
@@ -124,10 +126,10 @@ pub(super) fn suspend(suspend: u64, at: (i64, i64)) -> Limit {
     let deaf = micros(suspend);
     let lasts = at.1.saturating_sub(at.0);
     Limit {
-        name: "suspend",
-        text: format!("other devices are deaf for {}", Duration(deaf)),
-        source: "MPP, BUS, T_SUSPEND",
-        value: format!("the reply is over after {}", Duration(lasts)),
+        name: msg("suspend"),
+        text: text!("other devices are deaf for {}", Duration(deaf)),
+        source: msg("MPP, BUS, T_SUSPEND"),
+        value: text!("the reply is over after {}", Duration(lasts)),
         holds: lasts <= deaf,
         at: (at.0, at.0.saturating_add(deaf)),
     }

@@ -1,9 +1,12 @@
 //! Reads JSON as people write it for WaveDrom: names without quotes, single quotes, comments and
 //! a comma too many are fine (the forms of JSON5 that its examples use).
 
-use crate::record::{Record, Value};
+use crate::{
+    language::t,
+    record::{Record, Value},
+    say, text,
+};
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -25,7 +28,7 @@ impl fmt::Display for Unreadable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
             0 => f.write_str(&self.message),
-            line => write!(f, "line {line}: {}", self.message),
+            line => say!(f, "line {}: {}", line, self.message),
         }
     }
 }
@@ -54,7 +57,7 @@ pub(super) fn read(text: &str) -> Result<Value, Unreadable> {
     reader.space();
     match reader.rest.peek().copied() {
         None => Ok(value),
-        Some(letter) => reader.fail(format!("{letter:?} behind the end")),
+        Some(letter) => reader.fail(text!("{} behind the end", format_args!("{letter:?}"))),
     }
 }
 
@@ -110,11 +113,11 @@ impl Reader<'_> {
 
     fn value(&mut self, depth: usize) -> Result<Value, Unreadable> {
         if depth > DEEPEST {
-            return self.fail(format!("nested deeper than {DEEPEST}"));
+            return self.fail(text!("nested deeper than {}", DEEPEST));
         }
         self.space();
         match self.rest.peek().copied() {
-            None => self.fail("ends where a value should be"),
+            None => self.fail(t("ends where a value should be")),
             Some('{') => self.record(depth).map(Value::Record),
             Some('[') => {
                 self.next();
@@ -140,7 +143,7 @@ impl Reader<'_> {
             };
             self.space();
             if name.is_empty() || !self.accept(':') {
-                return self.fail("a name and a colon should be here");
+                return self.fail(t("a name and a colon should be here"));
             }
             record.0.push((name, self.value(depth + 1)?));
             self.between('}')?;
@@ -152,7 +155,7 @@ impl Reader<'_> {
     fn closed(&mut self, end: char) -> Result<bool, Unreadable> {
         self.space();
         match self.rest.peek() {
-            None => self.fail(format!("{end:?} is missing")),
+            None => self.fail(text!("{} is missing", format_args!("{end:?}"))),
             Some(_) => Ok(self.accept(end)),
         }
     }
@@ -162,7 +165,10 @@ impl Reader<'_> {
         self.space();
         match self.accept(',') || self.rest.peek() == Some(&end) {
             true => Ok(()),
-            false => self.fail(format!("a comma or {end:?} should be here")),
+            false => self.fail(text!(
+                "a comma or {} should be here",
+                format_args!("{end:?}")
+            )),
         }
     }
 
@@ -171,7 +177,7 @@ impl Reader<'_> {
         let mut text = String::new();
         loop {
             match self.next() {
-                None => return self.fail("a quote is not closed"),
+                None => return self.fail(t("a quote is not closed")),
                 Some(letter) if letter == quote => return Ok(text),
                 Some('\\') => match self.next() {
                     Some('n') => text.push('\n'),
@@ -180,7 +186,7 @@ impl Reader<'_> {
                     Some('u') => text.push(self.code()?),
                     Some('\n') => {}
                     Some(letter) => text.push(letter),
-                    None => return self.fail("a quote is not closed"),
+                    None => return self.fail(t("a quote is not closed")),
                 },
                 Some(letter) => text.push(letter),
             }
@@ -192,7 +198,7 @@ impl Reader<'_> {
         let mut code = 0;
         for _ in 0..4 {
             let Some(digit) = self.next().and_then(|letter| letter.to_digit(16)) else {
-                return self.fail("four hexadecimal digits should be here");
+                return self.fail(t("four hexadecimal digits should be here"));
             };
             code = code * 16 + digit;
         }
@@ -232,7 +238,10 @@ impl Reader<'_> {
                     None => {
                         let next = self.rest.peek().map(ToString::to_string);
                         let shown = if word.is_empty() { next } else { Some(word) };
-                        return self.fail(format!("{:?} is no value", shown.unwrap_or_default()));
+                        return self.fail(text!(
+                            "{} is no value",
+                            format_args!("{:?}", shown.unwrap_or_default())
+                        ));
                     }
                 }
             }

@@ -25,7 +25,9 @@ pub(crate) use pen::{escaped, number};
 pub use theme::{Palette, Theme};
 
 use super::Timeline;
-use crate::{decode::Frame, explain::Note, format::Medium, layout::Class, record::hex};
+use crate::{
+    decode::Frame, explain::Note, format::Medium, language::t, layout::Class, record::hex, text,
+};
 use alloc::{
     format,
     string::{String, ToString},
@@ -82,10 +84,10 @@ pub fn timeline(frame: &Frame<'_>, timeline: &Timeline, style: &Style) -> String
     let mut pen = Pen::new(width(style));
     waves::draw(&mut pen, &scene, timeline);
     table::limits(&mut pen, timeline);
-    let title = format!("{}, on the wire", scene.title());
-    let said = timeline.limits.iter().map(|limit| {
-        let verdict = if limit.holds { "holds" } else { "fails" };
-        format!(" {} {verdict}: {}.", limit.name, limit.value)
+    let title = text!("{}, on the wire", scene.title());
+    let said = timeline.limits.iter().map(|limit| match limit.holds {
+        true => text!(" {} holds: {}.", t(limit.name), limit.value),
+        false => text!(" {} fails: {}.", t(limit.name), limit.value),
     });
     let desc = scene.describe() + &said.collect::<String>();
     pen.finish(style.theme, &title, &desc)
@@ -140,8 +142,8 @@ impl<'a> Scene<'a> {
     }
 
     fn title(&self) -> String {
-        let name = self.frame.layout.shape.profile.title();
-        format!("{name}: a frame of {} bits", self.owners.len())
+        let name = t(self.frame.layout.shape.profile.title());
+        text!("{}: a frame of {} bits", name, self.owners.len())
     }
 
     /// All fields and faults in words.
@@ -152,10 +154,15 @@ impl<'a> Scene<'a> {
                 false => &note.text,
             };
             let width: usize = note.spans.iter().map(|span| span.len).sum();
-            let bits = if width == 1 { "bit" } else { "bits" };
-            format!("{}, {width} {bits}, {}: {text}.", note.name, note.raw)
+            text!(
+                "{}, {} {1|bit|bits}, {}: {}.",
+                t(note.name),
+                width,
+                note.raw,
+                text
+            )
         });
-        let faults = self.faults.iter().map(|fault| format!("Fault: {fault}."));
+        let faults = self.faults.iter().map(|fault| text!("Fault: {}.", fault));
         fields.chain(faults).collect::<Vec<_>>().join(" ")
     }
 
@@ -169,8 +176,8 @@ impl<'a> Scene<'a> {
             pen.text(MARGIN, "es-mono es-dim", &line);
         }
         let checked = match self.frame.layout.is_checked {
-            true => "every check holds",
-            false => "nothing speaks against it; the format has no checksum",
+            true => t("every check holds"),
+            false => t("nothing speaks against it; the format has no checksum"),
         };
         if self.faults.is_empty() {
             pen.down(20.0);

@@ -1,7 +1,7 @@
 //! The timing of one frame as data.
 
 use super::{Limit, clocked, uart};
-use crate::{bits::Bits, format::Link, layout::Resolved};
+use crate::{bits::Bits, format::Link, language::msg, layout::Resolved};
 use alloc::vec::Vec;
 
 /// How a master clocks a frame out; formats of a serial line have their baud rate instead.
@@ -116,18 +116,18 @@ impl What {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Bit(_) => "bit",
-            Self::Request(_) => "request",
-            Self::Start => "start",
-            Self::Stop => "stop",
-            Self::Latch => "latch",
-            Self::Acknowledge => "ack",
-            Self::Cds => "cds",
-            Self::Idle => "idle",
-            Self::Turnaround => "turnaround",
-            Self::TimeOut => "time-out",
-            Self::ErrorFlag => "error flag",
-            Self::Pause => "pause",
+            Self::Bit(_) => msg("bit"),
+            Self::Request(_) => msg("request"),
+            Self::Start => msg("start"),
+            Self::Stop => msg("stop"),
+            Self::Latch => msg("latch"),
+            Self::Acknowledge => msg("ack"),
+            Self::Cds => msg("cds"),
+            Self::Idle => msg("idle"),
+            Self::Turnaround => msg("turnaround"),
+            Self::TimeOut => msg("time-out"),
+            Self::ErrorFlag => msg("error flag"),
+            Self::Pause => msg("pause"),
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::{
         t485::Request,
         timing::{MICROSECOND, SECOND},
     },
+    language::msg,
     layout::Resolved,
 };
 use alloc::vec::Vec;
@@ -23,8 +24,8 @@ const REST: u64 = 2;
 pub(super) fn timeline(layout: &Resolved, bits: Bits<'_>) -> Timeline {
     let profile = &layout.shape.profile;
     let asked = request(layout, bits);
-    let mut encoder = Line::new("encoder", Side::Encoder, profile.baud);
-    let mut host = Line::new("host", Side::Master, profile.baud);
+    let mut encoder = Line::new(msg("encoder"), Side::Encoder, profile.baud);
+    let mut host = Line::new(msg("host"), Side::Master, profile.baud);
     let rest = host.after(0, REST);
 
     let sent = host.send(rest, asked.iter().copied(), What::Request);
@@ -64,7 +65,7 @@ pub(super) fn timeline(layout: &Resolved, bits: Bits<'_>) -> Timeline {
 
 /// A request without its reply.
 pub(super) fn request_alone(layout: &Resolved, bits: Bits<'_>) -> Timeline {
-    let mut host = Line::new("host", Side::Master, layout.shape.profile.baud);
+    let mut host = Line::new(msg("host"), Side::Master, layout.shape.profile.baud);
     let rest = host.after(0, REST);
     host.slot(What::Idle, 0, rest);
     let over = host.send(rest, bytes(layout, bits), What::Bit);

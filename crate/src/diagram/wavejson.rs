@@ -21,11 +21,12 @@ use crate::{
     capture::{Signal, choose},
     decode::Frame,
     format::{Format, Link},
+    language::t,
     profile::Profile,
     record::{Record, Value},
+    text,
 };
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -122,7 +123,7 @@ const fn middle(from: i64, to: i64) -> i64 {
 pub fn read(text: &str, profile: &Profile) -> Result<BitString, Unreadable> {
     if profile.link() != Link::Clocked {
         let title = profile.title();
-        return Err(Unreadable::whole(format!("{title} has no clock")));
+        return Err(Unreadable::whole(text!("{} has no clock", title)));
     }
     let whole = relaxed::read(text)?;
     let mut lanes = Vec::new();
@@ -141,7 +142,7 @@ pub fn read(text: &str, profile: &Profile) -> Result<BitString, Unreadable> {
     let mut bits = BitString::default();
     for (index, (_, (time, _))) in falls.enumerate().skip(usize::from(!is_biss)) {
         let Some(level) = data.level_before(*time) else {
-            return Err(Unreadable::whole(format!(
+            return Err(Unreadable::whole(text!(
                 "{} has no level at clock {}",
                 data.name,
                 index + 1
@@ -150,7 +151,7 @@ pub fn read(text: &str, profile: &Profile) -> Result<BitString, Unreadable> {
         bits.push(level);
     }
     match bits.as_bits().is_empty() {
-        true => Err(Unreadable::whole(format!("{} reads no bit", clock.name))),
+        true => Err(Unreadable::whole(text!("{} reads no bit", clock.name))),
         false => Ok(bits),
     }
 }
@@ -190,7 +191,7 @@ fn chosen(rows: &[Row]) -> Result<(&Row, &Row), Unreadable> {
         let row = |index: usize| rows.get(index);
         row(wires.clock.signal).zip(row(wires.data.signal))
     });
-    found.ok_or_else(|| Unreadable::whole("there are no two lanes with levels: clock and data"))
+    found.ok_or_else(|| Unreadable::whole(t("there are no two lanes with levels: clock and data")))
 }
 
 /// The lanes of a `signal`, also those in groups.
@@ -210,8 +211,10 @@ fn gather(value: &Value, lanes: &mut Vec<Row>) -> Result<(), Unreadable> {
 fn row(record: &Record, wave: &str) -> Result<Row, Unreadable> {
     let name = record.find("name").map(Value::plain).unwrap_or_default();
     if wave.len() > LONGEST {
-        return Err(Unreadable::whole(format!(
-            "{name} has more than {LONGEST} letters"
+        return Err(Unreadable::whole(text!(
+            "{} has more than {} letters",
+            name,
+            LONGEST
         )));
     }
     let scaled = |name: &str, usual: f64| {
@@ -251,8 +254,10 @@ fn row(record: &Record, wave: &str) -> Result<Row, Unreadable> {
             }),
             'x' | 'X' | 'z' | 'Z' => both(None),
             other => {
-                return Err(Unreadable::whole(format!(
-                    "{name}: {other:?} is no letter of a wave"
+                return Err(Unreadable::whole(text!(
+                    "{}: {} is no letter of a wave",
+                    name,
+                    format_args!("{other:?}")
                 )));
             }
         };

@@ -1,5 +1,7 @@
 //! Marks of the direction in front of the lines of a log.
 
+use crate::language::msg;
+
 /// Which way a line went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
@@ -14,8 +16,8 @@ impl Direction {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Sent => "sent",
-            Self::Received => "received",
+            Self::Sent => msg("sent"),
+            Self::Received => msg("received"),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What of a text is not data, and where it stands.
 
+use crate::language::{msg, t};
 use alloc::vec::Vec;
 use core::{fmt, ops::Range};
 
@@ -59,19 +60,19 @@ impl Dropped {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Offset => "offsets",
-            Self::Ascii => "text beside the bytes",
-            Self::Time => "times",
-            Self::Direction => "direction marks",
-            Self::Quote => "quotation marks of e-mail",
-            Self::Declaration => "declarations",
-            Self::Comment => "comments",
-            Self::Prose => "lines of text",
-            Self::LookAlike => "look-alike letters",
-            Self::Column => "labels and other columns",
-            Self::Error => "errors of the line",
-            Self::Repeat => "repeated lines that are too many",
-            Self::Unreadable => "unreadable",
+            Self::Offset => msg("offsets"),
+            Self::Ascii => msg("text beside the bytes"),
+            Self::Time => msg("times"),
+            Self::Direction => msg("direction marks"),
+            Self::Quote => msg("quotation marks of e-mail"),
+            Self::Declaration => msg("declarations"),
+            Self::Comment => msg("comments"),
+            Self::Prose => msg("lines of text"),
+            Self::LookAlike => msg("look-alike letters"),
+            Self::Column => msg("labels and other columns"),
+            Self::Error => msg("errors of the line"),
+            Self::Repeat => msg("repeated lines that are too many"),
+            Self::Unreadable => msg("unreadable"),
         }
     }
 
@@ -82,7 +83,7 @@ impl Dropped {
 
 impl fmt::Display for Dropped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(t(self.name()))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Hexdumps: an offset, bytes, and the same bytes as letters.
 
+use crate::language::msg;
 use alloc::vec::Vec;
 
 /// Bytes of the longest line of a hexdump.
@@ -147,7 +148,7 @@ impl Offsets {
             Style::Canonical => "hexdump -C",
             Style::Xxd => "xxd",
             Style::Od => "od",
-            Style::Words => "hexdump of words",
+            Style::Words => msg("hexdump of words"),
             Style::Plain => "hexdump",
         }
     }

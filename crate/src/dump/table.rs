@@ -1,6 +1,7 @@
 //! Exports of logic analysers: tables of bytes, and sigrok's annotations.
 
 use super::{Direction, stamp};
+use crate::language::msg;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -115,9 +116,9 @@ impl Table {
 
     pub(super) const fn name(&self) -> &'static str {
         if self.saleae {
-            "Saleae CSV"
+            msg("Saleae CSV")
         } else {
-            "CSV table"
+            msg("CSV table")
         }
     }
 

@@ -1,6 +1,7 @@
 //! What kind of writing a text is.
 
 use super::{offsets::Offsets, table::Table};
+use crate::language::{msg, t};
 use alloc::string::{String, ToString};
 use core::fmt;
 
@@ -97,12 +98,12 @@ impl Writing {
         match &self.form {
             Form::Offsets(offsets) => offsets.name(),
             Form::Table(table) => table.name(),
-            Form::Annotations => "sigrok annotations",
-            Form::Captured => "captured bits",
-            Form::Binary => "plain bytes",
-            Form::Free if self.times != Times::None => "terminal log with times",
-            Form::Free if self.source => "source code",
-            Form::Free if self.directed => "terminal log",
+            Form::Annotations => msg("sigrok annotations"),
+            Form::Captured => msg("captured bits"),
+            Form::Binary => msg("plain bytes"),
+            Form::Free if self.times != Times::None => msg("terminal log with times"),
+            Form::Free if self.source => msg("source code"),
+            Form::Free if self.directed => msg("terminal log"),
             Form::Free => self.digits.name(),
         }
     }
@@ -111,27 +112,27 @@ impl Writing {
 impl Digits {
     const fn name(self) -> &'static str {
         match self {
-            Self::Hexadecimal => "hexadecimal",
-            Self::Decimal => "decimal",
-            Self::Binary => "strings of 0 and 1",
-            Self::Numbers => "lines of numbers",
+            Self::Hexadecimal => msg("hexadecimal"),
+            Self::Decimal => msg("decimal"),
+            Self::Binary => msg("strings of 0 and 1"),
+            Self::Numbers => msg("lines of numbers"),
         }
     }
 }
 
 impl fmt::Display for Writing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut text: String = self.name().to_string();
-        let digits = self.digits.name();
+        let mut text: String = t(self.name()).to_string();
+        let digits = t(self.digits.name());
         if matches!(self.form, Form::Free) && text != digits && !self.source {
             text.push_str(", ");
             text.push_str(digits);
         }
         if self.quotes != Quotes::None || self.printable {
-            text.push_str(", quoted in an e-mail");
+            text.push_str(t(", quoted in an e-mail"));
         }
         if self.undecided {
-            text.push_str(", though decimal would fit too");
+            text.push_str(t(", though decimal would fit too"));
         }
         f.write_str(&text)
     }

@@ -7,6 +7,7 @@ use crate::{
     bits::Bits,
     decode::{Decoder, Frame},
     framing::Why,
+    language::in_english,
     layout::Resolved,
     reading::Values,
     record::{FAULTS, HEX, Record, START, Value, hex},
@@ -83,7 +84,7 @@ impl Table {
     pub fn skip(&self, start: u64, bits: Bits<'_>, why: Why, time: Option<f64>) -> String {
         let record = Record::new()
             .with(START, start)
-            .with(FAULTS, why.to_string())
+            .with(FAULTS, in_english(|| why.to_string()))
             .with(HEX, hex(bits.bytes()));
         self.row(&record, time)
     }

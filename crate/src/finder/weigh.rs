@@ -10,13 +10,14 @@ use crate::{
     detect::{self, Verdict, check_width},
     dump::Dump,
     format::Format,
+    language::t,
     profile::Profile,
     reading::Values,
     session::{Ask, Micros},
+    text,
 };
 use alloc::{
     collections::{BTreeSet, VecDeque},
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -237,26 +238,27 @@ impl Asked {
         if good == 0 || score < CHANCE {
             return None;
         }
-        let mut evidence = Vec::from([format!(
-            "{good} of {} replies have the right length and check, {} of them distinct",
+        let mut evidence = Vec::from([text!(
+            "{} of {} replies have the right length and check, {} of them distinct",
+            good,
             good + bad,
             distinct.len()
         )]);
         if named {
-            evidence.push(format!(
+            evidence.push(text!(
                 "the encoder identity says {} bits",
                 hypothesis.profile.angle_bits
             ));
         }
         if echoes > 0 {
-            evidence.push("the adapter echoes what it sends".to_string());
+            evidence.push(t("the adapter echoes what it sends").to_string());
         }
         let addresses: Vec<u8> = addresses.into_iter().collect();
         let mut profile = hypothesis.profile;
         if let (Format::Bus, Some(first)) = (profile.format, addresses.first()) {
             profile.address = u32::from(*first);
             let list: Vec<String> = addresses.iter().map(ToString::to_string).collect();
-            evidence.push(format!("answers at address {}", list.join(", ")));
+            evidence.push(text!("answers at address {}", list.join(", ")));
         }
         let narrowest = width(&mut profile, &places, &mut evidence);
         let count = i32::try_from(distinct.len()).unwrap_or(i32::MAX);
@@ -368,7 +370,7 @@ fn stream(profile: Profile, dump: &Dump, total: usize, took: Micros) -> Option<F
     let mut score = candidate.score;
     if profile.format == Format::Asi4 && frames > 20 {
         score += TEXT;
-        evidence.push(format!("{frames} lines of digits, each with CR and LF"));
+        evidence.push(text!("{} lines of digits, each with CR and LF", frames));
     }
     let interval = profile.format.interval()?;
     // As many frames as all bytes would make.
@@ -376,7 +378,7 @@ fn stream(profile: Profile, dump: &Dump, total: usize, took: Micros) -> Option<F
     let due = took / interval;
     if made.abs_diff(due) <= due / 5 {
         score += PACED;
-        evidence.push(format!(
+        evidence.push(text!(
             "{} frames a second, as its manual says",
             made * 1_000_000 / took.max(1)
         ));
@@ -423,11 +425,12 @@ fn width(profile: &mut Profile, places: &[Place], evidence: &mut Vec<String>) ->
         .any(|(_, angle)| angle.abs_diff(turn / 2) < turn / 4);
     if jumps && sweeps {
         profile.angle_bits = narrowest;
-        evidence.push(format!("the angle wraps after {narrowest} bits"));
+        evidence.push(text!("the angle wraps after {} bits", narrowest));
     } else if narrowest < profile.angle_bits {
-        evidence.push(format!(
-            "the angles seen fit in {narrowest} bits: turn the shaft by a whole turn, or take the \
-             bits per turn from the order code"
+        evidence.push(text!(
+            "the angles seen fit in {} bits: turn the shaft by a whole turn, or take the \
+             bits per turn from the order code",
+            narrowest
         ));
     }
     narrowest

@@ -22,7 +22,7 @@
 //! certain: it is part of the CRC as received, is shown, and may be anything (`marker` says
 //! what [`crate::emulator`] sends).
 
-use super::{Format, Limits, Link, Spec, said};
+use super::{Format, Limits, Manual, Link, Spec, said, one, spared};
 use crate::{
     check::Checksum,
     layout::{Check, Shape, layout},
@@ -33,8 +33,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "asi1",
     title: "ASI1",
-    about: said("the binary stream of the IP-75 inductosyn"),
-    source: said("IP-75, 5.3.1"),
     link: Link::Stream,
     parameters: &["angle-bits", "marker", "baud"],
     quantities: &["valid", "zeroDefault"],
@@ -44,12 +42,23 @@ pub const SPEC: Spec = Spec {
         together: POSITION,
         frame: (0, 0),
     },
+    interval: Some(INTERVAL),
     default: Profile {
         angle_bits: 14,
         turns_bits: 0,
         baud: 230_400,
         ..Profile::base(Format::Asi1)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the binary stream of the IP-75 inductosyn"),
+    source: said("IP-75, 5.3.1"),
+    timing: None,
+    example: spared("60 00 00 06 00 35\n60 03 7f 7c 15 4a\n60 00 00 00 00 66\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&PACKET, shape),
 };
 
 /// Microseconds from one packet to the next: 3.33 thousand a second (IP-75, 5.3.1).

@@ -16,15 +16,16 @@
 //!
 //! Where the manual misleads: it gives the range as 0…16384; 14 bits end at 16383.
 
-use super::{Format, Limits, Link, Spec, said};
-use crate::{layout::layout, profile::Profile};
+use super::{Format, Limits, Manual, Link, Spec, said, spared};
+use crate::{
+    layout::{Resolved, Shape, layout},
+    profile::Profile,
+};
 
 /// ASI4.
 pub const SPEC: Spec = Spec {
     name: "asi4",
     title: "ASI4",
-    about: said("the text stream of the IP-75 inductosyn"),
-    source: said("IP-75, 5.3.2"),
     link: Link::Stream,
     parameters: &["angle-bits", "baud"],
     quantities: &[],
@@ -34,12 +35,23 @@ pub const SPEC: Spec = Spec {
         together: 16,
         frame: (0, 0),
     },
+    interval: Some(INTERVAL),
     default: Profile {
         angle_bits: 14,
         turns_bits: 0,
         baud: 230_400,
         ..Profile::base(Format::Asi4)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the text stream of the IP-75 inductosyn"),
+    source: said("IP-75, 5.3.2"),
+    timing: None,
+    example: spared("8190\n8191\n8192\n"),
+    guesses: &[],
+    layouts: |_, shape| (1..=DIGITS as u32).map(|digits| Resolved::new(&LINE, Shape { digits, ..shape })).collect(),
 };
 
 /// Microseconds from one line to the next.

@@ -21,14 +21,14 @@
 //! CRC; their own status table and frame lengths fit only error b13, warning b12, status
 //! b11…b6, CRC b5…b0. The CRC-6 polynomial is x⁶+x+1, not x⁶+x⁵+1.
 
-use super::{
-    Format, Limits, Link, STATUS, Spec, said,
+use super::{spared, one, Format, Limits, Manual, Link, STATUS, Spec, said,
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
 use crate::{
     bits::Bits,
     check::Checksum,
     decode::Shapes,
+    language::msg,
     layout::{Active, Check, Shape, layout},
     profile::{Justify, Profile, StatusActive},
 };
@@ -37,8 +37,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "biss-c",
     title: "BiSS-C",
-    about: said("the synchronous interface of MPP and PT encoders, and of other makers"),
-    source: said("MPP and PT, BiSS-C"),
     link: Link::Clocked,
     parameters: &[
         "angle-bits",
@@ -56,15 +54,26 @@ pub const SPEC: Spec = Spec {
         together: 64,
         frame: (0, 0),
     },
+    interval: None,
     default: Profile {
         justify: Justify::Left,
         ..Profile::base(Format::BissC)
     },
 };
 
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the synchronous interface of MPP and PT encoders, and of other makers"),
+    source: said("MPP and PT, BiSS-C"),
+    timing: Some(&TIMING),
+    example: spared("82 00 05 55 a3 c1 c0 d4\n82 00 05 56 b0 f7 c0 48\n82 ff fe 80 00 01 90 88\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&FRAME, shape),
+};
+
 /// Clock and pause (MPP and PT, "BISS-C", timing parameters and note 1).
 pub const TIMING: Timing = Timing {
-    source: "MPP and PT, BiSS-C timing",
+    source: msg("MPP and PT, BiSS-C timing"),
     slowest: 120_000,
     fastest: 2_500_000,
     beyond: Beyond::Compensated {
@@ -73,9 +82,9 @@ pub const TIMING: Timing = Timing {
     timeout: 10 * MICROSECOND,
     // Only a typical value is given, but it must be over when the pause is.
     returns: (0, 20 * MICROSECOND),
-    timeout_text: "t_M = 10 µs",
+    timeout_text: msg("t_M = 10 µs"),
     pause: 20 * MICROSECOND,
-    pause_text: "t_P = 20 µs",
+    pause_text: msg("t_P = 20 µs"),
     words: Words::Once,
     // MPP and PT, characteristics: update frequency.
     positions: Positions::Of(50_000),

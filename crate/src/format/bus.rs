@@ -20,9 +20,10 @@
 //! bits; models XXM count 16 bits and sleep 32 µs up to 16 bits per turn, 36 µs above. The sense
 //! of the parity is likely, not certain: it is shown, and a frame is not refused for it.
 
-use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding};
+use super::{Format, HEALTH, Limits, Manual, Link, Spec, angle_padding, said, turns_padding, spared};
 use crate::{
     check::Checksum,
+    language::msg,
     layout::{Check, Layout, Resolved, Shape, Weight, layout},
     profile::{Parity, Profile},
     reading::Values,
@@ -32,8 +33,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "bus",
     title: "BUS",
-    about: said("the high-speed bus of MPP and PT encoders, up to 32 devices on one pair of wires"),
-    source: said("MPP and PT, BUS"),
     link: Link::Polled,
     parameters: &[
         "angle-bits",
@@ -50,10 +49,21 @@ pub const SPEC: Spec = Spec {
         together: 40,
         frame: (0, 0),
     },
+    interval: None,
     default: Profile {
         parity: Parity::Odd,
         ..Profile::base(Format::Bus)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the high-speed bus of MPP and PT encoders, up to 32 devices on one pair of wires"),
+    source: said("MPP and PT, BUS"),
+    timing: None,
+    example: spared("1f 1f 00 56 34 12 05 00 6a\n1f 1f 00 01 a0 12 05 00 a9\n1f 1f 60 00 00 13 fe ff 6d\n"),
+    guesses: &[],
+    layouts: |_, shape| Operation::ALL.iter().map(|operation| Resolved::new(operation.reply(), shape)).collect(),
 };
 
 /// Addresses on a pair of wires (MPP "BUS").
@@ -91,9 +101,9 @@ impl Operation {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
-            Self::Get => "position and status",
-            Self::SetZero => "set zero",
-            Self::SetAddress => "set address",
+            Self::Get => msg("position and status"),
+            Self::SetZero => msg("set zero"),
+            Self::SetAddress => msg("set address"),
         }
     }
 

@@ -21,11 +21,13 @@ pub(crate) use draft::LONGEST_NAME;
 pub use draft::{CrcRule, Draft, Framing, Kind, MOST_FIELDS, Written};
 pub use shipped::{SHIPPED, Shipped};
 
-use super::{Format, Limits, Link, Spec, biss_c, said, ssi};
+use super::{spared, Format, Limits, Manual, Link, Spec, biss_c, said, ssi};
 use crate::{
     check::{Algorithm, Checksum, OwnCrc},
-    layout::{Check, Cover, Layout, Piece, Row, Shape, StatusBit, Width},
+    language::msg,
+    layout::{Check, Cover, Layout, Piece, Resolved, Row, Shape, StatusBit, Width},
     profile::{Justify, Profile},
+    text,
 };
 use alloc::{
     boxed::Box,
@@ -45,9 +47,7 @@ pub(super) const INTERVAL: u64 = 1_000;
 /// A user's layout.
 pub const SPEC: Spec = Spec {
     name: "own",
-    title: "own layout",
-    about: said("a layout that comes with the program, or that a user wrote"),
-    source: said("the user"),
+    title: msg("own layout"),
     link: Link::Clocked,
     parameters: &["layout", "turns-code", "justify", "baud"],
     quantities: &[],
@@ -57,6 +57,7 @@ pub const SPEC: Spec = Spec {
         together: 96,
         frame: (0, 0),
     },
+    interval: Some(INTERVAL),
     default: Profile {
         angle_bits: 1,
         turns_bits: 0,
@@ -64,6 +65,16 @@ pub const SPEC: Spec = Spec {
         baud: 115_200,
         ..Profile::base(Format::Own)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("a layout that comes with the program, or that a user wrote"),
+    source: said("the user"),
+    timing: None,
+    example: spared("00 03 08 f6 43 eb\n"),
+    guesses: &[],
+    layouts: |profile, shape| profile.own.into_iter().map(|own| Resolved::new(own.layout(), shape)).collect(),
 };
 
 /// A layout of the user's own. There is one of each text, for as long as the program runs.
@@ -223,7 +234,7 @@ pub fn of(text: &str) -> Result<&'static Own, String> {
         }
         place = &kept.next;
     }
-    Err(format!("more than {MOST_LAYOUTS} different layouts"))
+    Err(text!("more than {} different layouts", MOST_LAYOUTS))
 }
 
 fn build(written: &Written, text: &str) -> Result<Own, String> {

@@ -20,20 +20,29 @@
 //! Where the manual misleads: it names wires A and B; the frames are on TX+ and TX−, pins 5
 //! and 6.
 
-use super::{Format, Link, Spec, rs485, said};
+use super::{Format, Link, Manual, Spec, rs485, said, one};
 use crate::{layout::Layout, profile::Profile};
 
 /// PERIOD.
 pub const SPEC: Spec = Spec {
     name: "period",
     title: "PERIOD",
-    about: said("what MPP and PT encoders send every millisecond unasked"),
-    source: said("MPP and PT, PERIOD"),
     link: Link::Stream,
     parameters: &["angle-bits", "turns-bits", "turns-code", "baud"],
     quantities: &[],
     limits: rs485::SPEC.limits,
+    interval: Some(INTERVAL),
     default: Profile::base(Format::Period),
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("what MPP and PT encoders send every millisecond unasked"),
+    source: said("MPP and PT, PERIOD"),
+    timing: None,
+    example: rs485::MANUAL.example,
+    guesses: &[],
+    layouts: |_, shape| one(FRAME, shape),
 };
 
 /// Microseconds from one frame to the next.

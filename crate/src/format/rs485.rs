@@ -20,9 +20,10 @@
 //! (single turn: five), 0x31 six. PT's commands 0x21, 0731 and 0704 are 0x31, 0x64 and 0x74.
 //! PT's CRC table is damaged; the polynomial is right.
 
-use super::{Format, HEALTH, Limits, Link, Spec, angle_padding, said, turns_padding};
+use super::{Format, HEALTH, Limits, Manual, Link, Spec, angle_padding, said, turns_padding, one, spared};
 use crate::{
     check::Checksum,
+    language::msg,
     layout::{Check, Layout, layout},
     profile::Profile,
 };
@@ -31,10 +32,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "rs485",
     title: "RS485",
-    about: said(
-        "one-byte commands of MPP and PT encoders over RS485 and RS422, whose replies do not say what they answer",
-    ),
-    source: said("MPP and PT, RS485/RS422"),
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "command", "baud"],
     quantities: &["temperature", "speed", "count"],
@@ -44,7 +41,20 @@ pub const SPEC: Spec = Spec {
         together: 40,
         frame: (0, 0),
     },
+    interval: None,
     default: Profile::base(Format::Rs485),
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said(
+        "one-byte commands of MPP and PT encoders over RS485 and RS422, whose replies do not say what they answer",
+    ),
+    source: said("MPP and PT, RS485/RS422"),
+    timing: None,
+    example: spared("00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n"),
+    guesses: &[],
+    layouts: |profile, shape| one(profile.command.reply(), shape),
 };
 
 /// How long an encoder is silent while it stores a zero, in microseconds (MPP "RS485", note 3).
@@ -89,11 +99,11 @@ impl Command {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
-            Self::Zero => "set zero",
-            Self::Position => "position",
-            Self::Status => "position and status",
-            Self::Speed => "position and speed",
-            Self::Temperature => "position and temperature",
+            Self::Zero => msg("set zero"),
+            Self::Position => msg("position"),
+            Self::Status => msg("position and status"),
+            Self::Speed => msg("position and speed"),
+            Self::Temperature => msg("position and temperature"),
         }
     }
 

@@ -20,13 +20,13 @@
 //! Where the manuals mislead: MPP's row calls b5…b0 "1 bit", there are six; the row "t_CL 400
 //! ns…14 µs" is the clock's period and contradicts the row of frequencies, which is right.
 
-use super::{
-    Format, HEALTH, Limits, Link, Spec, said,
+use super::{spared, one, Format, HEALTH, Limits, Manual, Link, Spec, said,
     timing::{Beyond, MICROSECOND, NANOSECOND, Positions, Timing, Words},
 };
 use crate::{
     bits::Bits,
     decode::Shapes,
+    language::msg,
     layout::{Shape, layout},
     profile::{Justify, Profile},
 };
@@ -35,8 +35,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi",
     title: "SSI",
-    about: said("a clocked word of MPP and PT encoders, without any check"),
-    source: said("MPP and PT, SSI"),
     link: Link::Clocked,
     parameters: &["angle-bits", "turns-bits", "turns-code", "justify"],
     quantities: &[],
@@ -46,12 +44,23 @@ pub const SPEC: Spec = Spec {
         together: 48,
         frame: (0, 0),
     },
+    interval: None,
     default: Profile::base(Format::Ssi),
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("a clocked word of MPP and PT encoders, without any check"),
+    source: said("MPP and PT, SSI"),
+    timing: Some(&TIMING),
+    example: spared("00 05 12 34 56 00\n00 05 12 a0 01 00\nff fe 13 00 00 60\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&WORD, shape),
 };
 
 /// Clock and pause (MPP and PT, "SSI", timing parameters and note 1).
 pub const TIMING: Timing = Timing {
-    source: "MPP and PT, SSI timing",
+    source: msg("MPP and PT, SSI timing"),
     slowest: 110_000,
     fastest: 1_500_000,
     beyond: Beyond::FirstLow {
@@ -61,9 +70,9 @@ pub const TIMING: Timing = Timing {
     timeout: 10 * MICROSECOND,
     // Only a typical value is given, but it must be over when the pause is.
     returns: (0, 20 * MICROSECOND),
-    timeout_text: "t_M = 10 µs",
+    timeout_text: msg("t_M = 10 µs"),
     pause: 20 * MICROSECOND,
-    pause_text: "t_P = 20 µs",
+    pause_text: msg("t_P = 20 µs"),
     words: Words::Once,
     // MPP and PT, characteristics: update frequency.
     positions: Positions::Of(50_000),

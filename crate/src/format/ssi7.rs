@@ -20,13 +20,13 @@
 //! T_mu and T_mi are one time, 20 ± 1 µs after the last falling edge. In the gap between words
 //! the data line carries the error flag.
 
-use super::{
-    Format, Limits, Link, Spec, said,
+use super::{spared, one, Format, Limits, Manual, Link, Spec, said,
     ssi::{AFTER, BEFORE},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
 use crate::{
     check::Checksum,
+    language::msg,
     layout::{Check, layout},
     profile::Profile,
 };
@@ -35,8 +35,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "ssi7",
     title: "SSI7",
-    about: said("the clocked word of the IP-75 inductosyn"),
-    source: said("IP-75, 5.4.1"),
     link: Link::Clocked,
     parameters: &["angle-bits", "frame-bits", "justify"],
     quantities: &["parity"],
@@ -46,6 +44,7 @@ pub const SPEC: Spec = Spec {
         together: POSITION,
         frame: (POSITION + 2, 30),
     },
+    interval: None,
     default: Profile {
         angle_bits: 14,
         turns_bits: 0,
@@ -54,17 +53,27 @@ pub const SPEC: Spec = Spec {
     },
 };
 
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the clocked word of the IP-75 inductosyn"),
+    source: said("IP-75, 5.4.1"),
+    timing: Some(&TIMING),
+    example: spared("000000000000000000000000000110\n000000000000001000000000000011\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&WORD, shape),
+};
+
 /// Clock and pause (IP-75, 5.4.1, figure 8 and its notes).
 pub const TIMING: Timing = Timing {
-    source: "IP-75, 5.4.1",
+    source: msg("IP-75, 5.4.1"),
     slowest: 100_000,
     fastest: 2_000_000,
     beyond: Beyond::Never,
     timeout: 20 * MICROSECOND,
     returns: (19 * MICROSECOND, 21 * MICROSECOND),
-    timeout_text: "T_mu = 20 ± 1 µs",
+    timeout_text: msg("T_mu = 20 ± 1 µs"),
     pause: 21 * MICROSECOND,
-    pause_text: "T_mu = 20 ± 1 µs, which the gap must exceed",
+    pause_text: msg("T_mu = 20 ± 1 µs, which the gap must exceed"),
     words: Words::Once,
     // IP-75, table 1.
     positions: Positions::MoreThan(10_000),

@@ -22,8 +22,7 @@
 //! Where the article misleads: 16 bits are 65 536 values, not 32 688; the rows of table 1 have
 //! 25 and 26 columns, so the word length and the place of the parity are parameters.
 
-use super::{
-    Format, Limits, Link, Spec, said,
+use super::{spared, one, Format, Limits, Manual, Link, Spec, said,
     ssi::{AFTER, BEFORE, with_spare},
     timing::{Beyond, MICROSECOND, Positions, Timing, Words},
 };
@@ -31,6 +30,7 @@ use crate::{
     bits::Bits,
     check::Checksum,
     decode::Shapes,
+    language::msg,
     layout::{Check, Shape, layout},
     profile::{Align, Code, Justify, Parity, Profile},
 };
@@ -38,9 +38,7 @@ use crate::{
 /// SSI fir-tree.
 pub const SPEC: Spec = Spec {
     name: "ssi-tree",
-    title: "SSI fir-tree",
-    about: said("the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others"),
-    source: said("P+F article, tables 1 and 4"),
+    title: msg("SSI fir-tree"),
     link: Link::Clocked,
     parameters: &[
         "angle-bits",
@@ -59,6 +57,7 @@ pub const SPEC: Spec = Spec {
         together: 34,
         frame: (2, 64),
     },
+    interval: None,
     default: Profile {
         angle_bits: 13,
         turns_bits: 12,
@@ -69,17 +68,27 @@ pub const SPEC: Spec = Spec {
     },
 };
 
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the classic SSI word of Pepperl+Fuchs AVS and AVM58, and of many others"),
+    source: said("P+F article, tables 1 and 4"),
+    timing: Some(&TIMING),
+    example: spared("1010010100101001000100011\n0110001111111011110001000\n"),
+    guesses: &[],
+    layouts: |_, shape| one(&WORD, shape),
+};
+
 /// Clock and pause (P+F article, figure 2; table 6, "0.1…1.5 Mbit/s").
 pub const TIMING: Timing = Timing {
-    source: "P+F article, figure 2 and table 6",
+    source: msg("P+F article, figure 2 and table 6"),
     slowest: 100_000,
     fastest: 1_500_000,
     beyond: Beyond::Never,
     timeout: 20 * MICROSECOND,
     returns: (10 * MICROSECOND, 30 * MICROSECOND),
-    timeout_text: "t_m = 20 ± 10 µs",
+    timeout_text: msg("t_m = 20 ± 10 µs"),
     pause: 30 * MICROSECOND,
-    pause_text: "t_m = 20 ± 10 µs, which the pause must exceed",
+    pause_text: msg("t_m = 20 ± 10 µs, which the pause must exceed"),
     words: Words::Ring,
     // The article names none.
     positions: Positions::Unsaid,

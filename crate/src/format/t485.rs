@@ -20,10 +20,11 @@
 //! Where the manuals mislead: the data is right-aligned, not left-aligned (note 1); the CRC is
 //! x⁸+1, not x+1 (note 2); the "17" of byte 5 is the ENID, 0x17 or 0x11, and is never required.
 
-use super::{Format, Limits, Link, Spec, said};
+use super::{Format, Limits, Manual, Link, Spec, said, spared};
 use crate::{
     bits::{self, Bits},
     check::Checksum,
+    language::msg,
     layout::{Check, Layout, Resolved, Role, Shape, StatusBit, layout},
     profile::{Dialect, Profile},
 };
@@ -32,8 +33,6 @@ use crate::{
 pub const SPEC: Spec = Spec {
     name: "t485",
     title: "T485",
-    about: said("the Tamagawa-compatible protocol of MPP and PT encoders"),
-    source: said("MPP and PT, T485"),
     link: Link::Polled,
     parameters: &["angle-bits", "turns-bits", "turns-code", "dialect", "baud"],
     quantities: &["parity", "operation", "enid", "alarm"],
@@ -43,10 +42,21 @@ pub const SPEC: Spec = Spec {
         together: 48,
         frame: (0, 0),
     },
+    interval: None,
     default: Profile {
         angle_bits: 23,
         ..Profile::base(Format::T485)
     },
+};
+
+/// What its manual says of it.
+pub const MANUAL: Manual = Manual {
+    about: said("the Tamagawa-compatible protocol of MPP and PT encoders"),
+    source: said("MPP and PT, T485"),
+    timing: None,
+    example: spared("1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"),
+    guesses: &[],
+    layouts: |_, shape| Request::ALL.iter().map(|request| Resolved::new(request.reply(), shape)).collect(),
 };
 
 /// Bytes of Tamagawa's EEPROM.
@@ -113,15 +123,15 @@ impl Request {
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
-            Self::Angle => "angle",
-            Self::Turns => "turns",
-            Self::Identity => "encoder identity",
-            Self::All => "angle, identity, turns and alarms",
-            Self::MemoryWrite => "write a byte of the EEPROM",
-            Self::ResetErrors => "reset errors",
-            Self::ResetAngle => "reset angle",
-            Self::ResetTurns => "reset turns",
-            Self::MemoryRead => "read a byte of the EEPROM",
+            Self::Angle => msg("angle"),
+            Self::Turns => msg("turns"),
+            Self::Identity => msg("encoder identity"),
+            Self::All => msg("angle, identity, turns and alarms"),
+            Self::MemoryWrite => msg("write a byte of the EEPROM"),
+            Self::ResetErrors => msg("reset errors"),
+            Self::ResetAngle => msg("reset angle"),
+            Self::ResetTurns => msg("reset turns"),
+            Self::MemoryRead => msg("read a byte of the EEPROM"),
         }
     }
 
@@ -212,26 +222,26 @@ pub fn is_control(byte: u8) -> bool {
 pub static STATUS_FIELD: &[StatusBit] = &[
     StatusBit {
         place: 7,
-        name: "delimiter error",
-        doc: "the request had no valid stop bit (Tamagawa); check baud, termination and A/B",
+        name: msg("delimiter error"),
+        doc: msg("the request had no valid stop bit (Tamagawa); check baud, termination and A/B"),
         role: None,
     },
     StatusBit {
         place: 6,
-        name: "communication error",
-        doc: "the encoder did not understand the request: parity or operation unknown",
+        name: msg("communication error"),
+        doc: msg("the encoder did not understand the request: parity or operation unknown"),
         role: None,
     },
     StatusBit {
         place: 5,
-        name: "encoder error",
-        doc: "the position is not valid; the alarm byte of the 'all' reply says why",
+        name: msg("encoder error"),
+        doc: msg("the position is not valid; the alarm byte of the 'all' reply says why"),
         role: Some(Role::Error),
     },
     StatusBit {
         place: 4,
-        name: "counting error",
-        doc: "the position was miscounted (Tamagawa); power-cycle at standstill",
+        name: msg("counting error"),
+        doc: msg("the position was miscounted (Tamagawa); power-cycle at standstill"),
         role: None,
     },
 ];
@@ -246,14 +256,16 @@ pub fn not_understood() -> u64 {
 pub static ALARM: &[StatusBit] = &[
     StatusBit {
         place: 7,
-        name: "battery disconnected",
-        doc: "the turn counter was lost and restarted from 0; check the battery, then power-cycle",
+        name: msg("battery disconnected"),
+        doc: msg(
+            "the turn counter was lost and restarted from 0; check the battery, then power-cycle",
+        ),
         role: None,
     },
     StatusBit {
         place: 6,
-        name: "battery low",
-        doc: "below 2.9 V the turns are still good, below 2.7 V not; replace the battery",
+        name: msg("battery low"),
+        doc: msg("below 2.9 V the turns are still good, below 2.7 V not; replace the battery"),
         role: None,
     },
 ];
@@ -263,50 +275,52 @@ pub static ALARM: &[StatusBit] = &[
 pub static TAMAGAWA_ALARM: &[StatusBit] = &[
     StatusBit {
         place: 7,
-        name: "battery alarm",
-        doc: "the battery is low, the turns are still good; replace it",
+        name: msg("battery alarm"),
+        doc: msg("the battery is low, the turns are still good; replace it"),
         role: None,
     },
     StatusBit {
         place: 6,
-        name: "battery error",
-        doc: "the battery was lost and the turns with it; replace it, then reset",
+        name: msg("battery error"),
+        doc: msg("the battery was lost and the turns with it; replace it, then reset"),
         role: None,
     },
     StatusBit {
         place: 5,
-        name: "multi-turn error",
-        doc: "the turn counter is wrong; reset it at a known position",
+        name: msg("multi-turn error"),
+        doc: msg("the turn counter is wrong; reset it at a known position"),
         role: None,
     },
     StatusBit {
         place: 4,
-        name: "overheat",
-        doc: "the encoder is too hot",
+        name: msg("overheat"),
+        doc: msg("the encoder is too hot"),
         role: None,
     },
     StatusBit {
         place: 3,
-        name: "counter overflow",
-        doc: "the turn counter has run over",
+        name: msg("counter overflow"),
+        doc: msg("the turn counter has run over"),
         role: None,
     },
     StatusBit {
         place: 2,
-        name: "counting error",
-        doc: "the position was miscounted; power-cycle at standstill",
+        name: msg("counting error"),
+        doc: msg("the position was miscounted; power-cycle at standstill"),
         role: None,
     },
     StatusBit {
         place: 1,
-        name: "full absolute status",
-        doc: "the shaft turned too fast at power-on; the resolution is reduced until it slows down",
+        name: msg("full absolute status"),
+        doc: msg(
+            "the shaft turned too fast at power-on; the resolution is reduced until it slows down",
+        ),
         role: None,
     },
     StatusBit {
         place: 0,
-        name: "overspeed",
-        doc: "the shaft turned too fast while on battery; reset the turns",
+        name: msg("overspeed"),
+        doc: msg("the shaft turned too fast while on battery; reset the turns"),
         role: None,
     },
 ];

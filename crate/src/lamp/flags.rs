@@ -2,6 +2,7 @@
 
 use crate::{
     format::{Link, asi1, asi4, biss_c, bus, period, rs485, ssi, ssi_tree, ssi7, t485},
+    language::t,
     layout::{Active, Field, Layout, Resolved, Role, Shape},
     product::Interface,
 };
@@ -52,11 +53,11 @@ pub fn flags(interface: Interface) -> Vec<Flag> {
                 | Role::ZeroDefault
         )
     });
-    let flag = |field: &Field, at: u32, name: &str, doc: String| {
+    let flag = |field: &Field, at: u32, name: &'static str, doc: String| {
         layout.bit_of(field, at).map(|index| Flag {
             role: field.row.role,
             field: field.row.name,
-            name: name.replace('_', " "),
+            name: t(name).replace('_', " "),
             place: place(index),
             active: field.row.active,
             doc,
@@ -69,7 +70,7 @@ pub fn flags(interface: Interface) -> Vec<Flag> {
                 lines.join(" ")
             };
             let named = field.row.bits.iter();
-            let named = named.filter_map(|bit| flag(field, bit.place, bit.name, bit.doc.into()));
+            let named = named.filter_map(|bit| flag(field, bit.place, bit.name, t(bit.doc).into()));
             let alone = match field.row.bits.is_empty() {
                 true => flag(field, 0, field.row.name, doc()),
                 false => None,

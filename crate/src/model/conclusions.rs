@@ -10,12 +10,13 @@ use crate::{
         bus::{self, Operation},
         rs485, t485,
     },
+    language::t,
     layout::Role,
     product::{Interface, Series, facts, sizes},
     record::Record,
+    text,
 };
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -165,7 +166,7 @@ impl Model {
         if let (Some(rotor), Some(stator)) = (text(Place::Rotor), text(Place::Stator))
             && self.size().is_none()
         {
-            let name = self.series_name();
+            let name = t(self.series_name());
             let step = if self.series == Some(Series::Mpp) {
                 10
             } else {
@@ -174,33 +175,41 @@ impl Model {
             let number = |place| self.token(place).map_or(0, |token| token.number);
             let (inner, outer) = (number(Place::Rotor), number(Place::Stator));
             let advice = match inner.is_multiple_of(step) && outer > inner {
-                true => format!(
-                    "The manual speaks of models for every {step} mm, so it may still be made: ask."
+                true => text!(
+                    "The manual speaks of models for every {} mm, so it may still be made: ask.",
+                    step
                 ),
-                false => "Look at the label again.".to_string(),
+                false => t("Look at the label again.").to_string(),
             };
-            notes.push(format!(
-                "The size table of {name} has no {name}-{rotor}-{stator}. {advice}"
+            notes.push(text!(
+                "The size table of {} has no {}-{}-{}. {}",
+                name,
+                name,
+                rotor,
+                stator,
+                advice
             ));
         }
         if self.series.is_none() {
             notes.push(match self.token(Place::Interface) {
-                Some(token) if self.interface == Interface::BissC && token.word.text == "B" => {
+                Some(token) if self.interface == Interface::BissC && token.word.text == "B" => t(
                     "A resolution alone is how the CRC-6 programs of MPP and PT call a BiSS-C \
-                     model; the whole code says the rest."
-                        .to_string()
-                }
-                _ => "A short form of the manuals: the whole code says series, size and \
-                      temperature."
-                    .to_string(),
+                     model; the whole code says the rest.",
+                )
+                .to_string(),
+                _ => t(
+                    "A short form of the manuals: the whole code says series, size and \
+                      temperature.",
+                )
+                .to_string(),
             });
         }
         match self.interface {
             Interface::Ssi => notes
-                .push("SSI has no CRC: MPP and PT recommend BiSS-C on the same wires.".to_string()),
+                .push(t("SSI has no CRC: MPP and PT recommend BiSS-C on the same wires.").to_string()),
             Interface::SsiTree => notes.push(
-                "Bits and code are ordered separately and are no part of this name: what stands \
-                 here is the classic word. Look at the type plate and change it."
+                t("Bits and code are ordered separately and are no part of this name: what stands \
+                 here is the classic word. Look at the type plate and change it.")
                     .to_string(),
             ),
             _ => {}

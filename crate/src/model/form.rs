@@ -1,7 +1,11 @@
 //! The form of an order code: its positions, and how each is read and written.
 
 use super::{Turns, tables::FORMS};
-use crate::product::{Interface, Series};
+use crate::{
+    language::t,
+    product::{Interface, Series},
+    text,
+};
 use alloc::{
     format,
     string::{String, ToString},
@@ -105,18 +109,18 @@ pub struct Token {
 impl Place {
     /// Its name for people.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
-            Self::Series => "series",
-            Self::Rotor => "rotor diameter",
-            Self::Stator => "stator diameter",
-            Self::Output => "output",
-            Self::Resolution => "resolution",
-            Self::Interface => "interface",
-            Self::Supply => "supply",
-            Self::Temperature => "temperature range",
-            Self::Option => "option",
-            Self::Logic => "kind of logic",
+            Self::Series => t("series"),
+            Self::Rotor => t("rotor diameter"),
+            Self::Stator => t("stator diameter"),
+            Self::Output => t("output"),
+            Self::Resolution => t("resolution"),
+            Self::Interface => t("interface"),
+            Self::Supply => t("supply"),
+            Self::Temperature => t("temperature range"),
+            Self::Option => t("option"),
+            Self::Logic => t("kind of logic"),
         }
     }
 }
@@ -162,16 +166,21 @@ impl Part {
         let list = match named.as_slice() {
             [] => String::new(),
             [only] => (*only).to_string(),
-            [firsts @ .., last] => format!("{} or {last}", firsts.join(", ")),
+            [firsts @ .., last] => text!("{} or {}", firsts.join(", "), last),
         };
         match (self.number, named.len()) {
-            (Some((least, most, unit)), 0) => format!("{least} to {most} {unit} fit"),
+            (Some((least, most, unit)), 0) => text!("{} to {} fit", least, counted(most, unit)),
             (Some((least, most, unit)), _) => {
-                format!("{least} to {most} {unit} fit, alone or with {list} behind")
+                text!(
+                    "{} to {} fit, alone or with {} behind",
+                    least,
+                    counted(most, unit),
+                    list
+                )
             }
-            (None, 1) if words.len() > 1 => format!("{list} or nothing fits"),
-            (None, 1) => format!("{list} fits"),
-            (None, _) => format!("{list} fit"),
+            (None, 1) if words.len() > 1 => text!("{} or nothing fits", list),
+            (None, 1) => text!("{} fits", list),
+            (None, _) => text!("{} fit", list),
         }
     }
 }
@@ -190,9 +199,9 @@ impl Token {
     #[must_use]
     pub fn doc(&self) -> String {
         match (self.part.number, self.word.doc) {
-            (None, doc) => doc.to_string(),
-            (Some((_, _, unit)), "") => format!("{} {unit}", self.number),
-            (Some((_, _, unit)), doc) => format!("{} {unit}, {doc}", self.number),
+            (None, doc) => t(doc).to_string(),
+            (Some((_, _, unit)), "") => counted(self.number, unit),
+            (Some((_, _, unit)), doc) => format!("{}, {}", counted(self.number, unit), t(doc)),
         }
     }
 }
@@ -220,5 +229,13 @@ impl Form {
         let firsts = FORMS.iter().filter_map(|form| form.parts.first());
         let firsts = firsts.filter(|part| part.place == Place::Series);
         firsts.flat_map(|part| part.words.iter().map(|word| word.text))
+    }
+}
+
+/// A number with its unit.
+fn counted(number: u32, unit: &'static str) -> String {
+    match unit {
+        "bits" => text!("{} bits", number),
+        unit => format!("{number} {}", t(unit)),
     }
 }

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::{
     format::said,
+    language::msg,
     product::{Interface, Series},
 };
 
@@ -52,31 +53,31 @@ impl Part {
 static RESOLUTION: Part = Part::of(
     Place::Resolution,
     &[
-        word("", Says::Turns(Turns::Single, 0), "single turn"),
+        word("", Says::Turns(Turns::Single, 0), msg("single turn")),
         word(
             "M",
             Says::Turns(Turns::Powered, 16),
-            "turns are counted while there is power",
+            msg("turns are counted while there is power"),
         ),
         word(
             "BM",
             Says::Turns(Turns::Battery, 16),
-            "turns are counted on a battery while there is no power",
+            msg("turns are counted on a battery while there is no power"),
         ),
         word(
             "FM",
             Says::Turns(Turns::Flash, 16),
-            "turns are kept in flash; without power the shaft may turn by 90° at most",
+            msg("turns are kept in flash; without power the shaft may turn by 90° at most"),
         ),
         word(
             "M1",
             Says::Turns(Turns::Powered, 8),
-            "an 8-bit turn counter, while there is power",
+            msg("an 8-bit turn counter, while there is power"),
         ),
     ],
-    "bits per turn, and how turns are kept",
+    msg("bits per turn, and how turns are kept"),
 )
-.counted(16, 24, "bits");
+.counted(16, 24, msg("bits"));
 
 /// The wires and what is spoken over them (MPP and PT, "Models").
 const INTERFACE: Part = Part::of(
@@ -85,65 +86,77 @@ const INTERFACE: Part = Part::of(
         word(
             "S",
             Says::Interface(Interface::Ssi),
-            "SSI; it has no CRC, so the manual recommends BiSS-C on the same wires",
+            msg("SSI; it has no CRC, so the manual recommends BiSS-C on the same wires"),
         ),
         word("B", Says::Interface(Interface::BissC), "BiSS-C"),
-        word("R", Says::Interface(Interface::Rs485), "RS485, two wires"),
-        word("A", Says::Interface(Interface::Rs422), "RS422, four wires"),
+        word(
+            "R",
+            Says::Interface(Interface::Rs485),
+            msg("RS485, two wires"),
+        ),
+        word(
+            "A",
+            Says::Interface(Interface::Rs422),
+            msg("RS422, four wires"),
+        ),
         word(
             "T",
             Says::Interface(Interface::T485),
-            "T485, compatible with Tamagawa of 17 or 23 bits",
+            msg("T485, compatible with Tamagawa of 17 or 23 bits"),
         ),
         word(
             "D",
             Says::Interface(Interface::Bus),
-            "BUS, the high-speed bus",
+            msg("BUS, the high-speed bus"),
         ),
         word(
             "P",
             Says::Interface(Interface::Period),
-            "PERIOD, sends by itself every millisecond",
+            msg("PERIOD, sends by itself every millisecond"),
         ),
     ],
-    "interface",
+    msg("interface"),
 );
 
 static OUTPUT: Part = Part::of(
     Place::Output,
-    &[word("A", Says::Nothing, "absolute value")],
-    "what is put out",
+    &[word("A", Says::Nothing, msg("absolute value"))],
+    msg("what is put out"),
 );
 
-static SUPPLY: Part = Part::of(Place::Supply, &[word("N", Says::Nothing, "5 V")], "supply");
+static SUPPLY: Part = Part::of(
+    Place::Supply,
+    &[word("N", Says::Nothing, msg("5 V"))],
+    msg("supply"),
+);
 
 static TEMPERATURE: Part = Part::of(
     Place::Temperature,
     &[
-        word("A", Says::Temperature(-40, 85), "−40…85 °C"),
-        word("B", Says::Temperature(-40, 105), "−40…105 °C"),
-        word("C", Says::Temperature(-40, 125), "−40…125 °C"),
+        word("A", Says::Temperature(-40, 85), msg("−40…85 °C")),
+        word("B", Says::Temperature(-40, 105), msg("−40…105 °C")),
+        word("C", Says::Temperature(-40, 125), msg("−40…125 °C")),
     ],
-    "working temperature",
+    msg("working temperature"),
 );
 
 /// Baud codes A and B (MPP and PT, "RS485/RS422").
 static OPTION: Part = Part::of(
     Place::Option,
     &[
-        word("M", Says::Nothing, "no option"),
-        word("A", Says::Baud(115_200), "115 200 baud"),
+        word("M", Says::Nothing, msg("no option")),
+        word("A", Says::Baud(115_200), msg("115 200 baud")),
         word(
             "B",
             Says::Baud(2_500_000),
-            "2 500 000 baud, as without a code",
+            msg("2 500 000 baud, as without a code"),
         ),
     ],
-    "none, or the baud rate of RS485 and RS422",
+    msg("none, or the baud rate of RS485 and RS422"),
 );
 
 const fn diameter(place: Place, words: &'static [Word], doc: &'static str) -> Part {
-    Part::of(place, words, doc).counted(1, 999, "mm")
+    Part::of(place, words, doc).counted(1, 999, msg("mm"))
 }
 
 /// All forms of order codes.
@@ -158,19 +171,19 @@ pub static FORMS: &[Form] = &[
                 &[word(
                     "MPP",
                     Says::Series(Series::Mpp),
-                    "KingKong MPP, magnetic",
+                    msg("KingKong MPP, magnetic"),
                 )],
-                "series",
+                msg("series"),
             ),
             &diameter(
                 Place::Rotor,
                 &[word("", Says::Nothing, "")],
-                "inner diameter of the rotor",
+                msg("inner diameter of the rotor"),
             ),
             &diameter(
                 Place::Stator,
                 &[word("", Says::Nothing, "")],
-                "outer diameter of the stator",
+                msg("outer diameter of the stator"),
             ),
             &OUTPUT,
             &RESOLUTION,
@@ -187,24 +200,32 @@ pub static FORMS: &[Form] = &[
         parts: &[
             &Part::of(
                 Place::Series,
-                &[word("PT", Says::Series(Series::Pt), "Mosrac PT, magnetic")],
-                "series",
+                &[word(
+                    "PT",
+                    Says::Series(Series::Pt),
+                    msg("Mosrac PT, magnetic"),
+                )],
+                msg("series"),
             ),
             &diameter(
                 Place::Rotor,
                 &[
-                    word("", Says::Nothing, "rotor with a thread"),
-                    word("B", Says::Nothing, "bonded rotor"),
+                    word("", Says::Nothing, msg("rotor with a thread")),
+                    word("B", Says::Nothing, msg("bonded rotor")),
                 ],
-                "size of the rotor, and how it is fixed",
+                msg("size of the rotor, and how it is fixed"),
             ),
             &diameter(
                 Place::Stator,
                 &[
-                    word("", Says::Nothing, "mounted from the front"),
-                    word("H", Says::Nothing, "mounted from the front or the back"),
+                    word("", Says::Nothing, msg("mounted from the front")),
+                    word(
+                        "H",
+                        Says::Nothing,
+                        msg("mounted from the front or the back"),
+                    ),
                 ],
-                "outer diameter of the stator, and how it is mounted",
+                msg("outer diameter of the stator, and how it is mounted"),
             ),
             &OUTPUT,
             &RESOLUTION,
@@ -224,9 +245,9 @@ pub static FORMS: &[Form] = &[
                 &[word(
                     "IP-75",
                     Says::Series(Series::Ip75),
-                    "inductosyn ИП-75",
+                    msg("inductosyn ИП-75"),
                 )],
-                "series",
+                msg("series"),
             ),
             &Part::of(
                 Place::Interface,
@@ -234,16 +255,20 @@ pub static FORMS: &[Form] = &[
                     word(
                         "ASI1",
                         Says::Interface(Interface::Asi1),
-                        "binary stream over RS-485",
+                        msg("binary stream over RS-485"),
                     ),
                     word(
                         "ASI4",
                         Says::Interface(Interface::Asi4),
-                        "text stream over RS-485",
+                        msg("text stream over RS-485"),
                     ),
-                    word("SSI7", Says::Interface(Interface::Ssi7), "SSI of 30 bits"),
+                    word(
+                        "SSI7",
+                        Says::Interface(Interface::Ssi7),
+                        msg("SSI of 30 bits"),
+                    ),
                 ],
-                "what it sends",
+                msg("what it sends"),
             ),
         ],
     },
@@ -258,39 +283,43 @@ pub static FORMS: &[Form] = &[
                     word(
                         "AVS58",
                         Says::Series(Series::Avs58),
-                        "single turn, solid shaft",
+                        msg("single turn, solid shaft"),
                     ),
                     word(
                         "AVM58",
                         Says::Series(Series::Avm58),
-                        "multi-turn, solid shaft",
+                        msg("multi-turn, solid shaft"),
                     ),
                     word(
                         "ASS58",
                         Says::Series(Series::Ass58),
-                        "single turn, hollow shaft",
+                        msg("single turn, hollow shaft"),
                     ),
                     word(
                         "ASM58",
                         Says::Series(Series::Asm58),
-                        "multi-turn, hollow shaft",
+                        msg("multi-turn, hollow shaft"),
                     ),
                 ],
-                "series",
+                msg("series"),
             ),
             &Part::of(
                 Place::Logic,
                 &[
-                    word("", Says::Nothing, "a microcontroller, with a preset"),
-                    word("H", Says::HardWired, "hard-wired logic, without preset"),
+                    word("", Says::Nothing, msg("a microcontroller, with a preset")),
+                    word(
+                        "H",
+                        Says::HardWired,
+                        msg("hard-wired logic, without preset"),
+                    ),
                 ],
-                "nothing, or H for hard-wired logic",
+                msg("nothing, or H for hard-wired logic"),
             )
             .or(""),
         ],
     },
     Form {
-        title: "MPP or PT",
+        title: msg("MPP or PT"),
         source: said("MPP and PT, T485 note 2, BUS version table, CRC-6 program"),
         example: shown(&["17M", "T"]),
         parts: &[

@@ -3,25 +3,29 @@
 use super::{Missing, Procedure, STILL, Step, Zero};
 use crate::{
     format::{Format, bus::Operation},
+    language::t,
     product::Interface,
     profile::Profile,
     sequence::{Change, Expect, Proof, Script, Send},
+    text,
 };
 use alloc::{format, string::String, vec::Vec};
 
 pub(super) fn rs485(interface: Interface) -> Zero {
-    let source = "MPP, RS485 and RS422, note 3; PT, RS485, note 1";
+    let source = t("MPP, RS485 and RS422, note 3; PT, RS485, note 1");
     let about = match interface {
-        Interface::Rs422 => "The present position becomes 0 and is stored. Send on RX, hear on TX.",
-        _ => "The present position becomes 0 and is stored.",
+        Interface::Rs422 => {
+            t("The present position becomes 0 and is stored. Send on RX, hear on TX.")
+        }
+        _ => t("The present position becomes 0 and is stored."),
     };
     let zero = Procedure {
         name: "set-zero",
-        title: "Set zero by command",
+        title: t("Set zero by command"),
         about,
         notes: [
-            "Any other command between them starts the count again.",
-            "PT names only the command 0x30, ten times, with 0x31 between; MPP the same in pairs.",
+            t("Any other command between them starts the count again."),
+            t("PT names only the command 0x30, ten times, with 0x31 between; MPP the same in pairs."),
         ]
         .into(),
         ..of(Format::Rs485.default_profile(), Change::Zero, source)
@@ -29,35 +33,35 @@ pub(super) fn rs485(interface: Interface) -> Zero {
     Zero {
         procedures: [zero].into(),
         missing: [Missing {
-            text: "No command brings the factory's zero back.",
-            source: "MPP and PT, RS485: commands",
+            text: t("No command brings the factory's zero back."),
+            source: t("MPP and PT, RS485: commands"),
         }]
         .into(),
     }
 }
 
 pub(super) fn t485() -> Zero {
-    let source = "MPP, T485, notes 3 and 4; PT, T485, note 3";
+    let source = t("MPP, T485, notes 3 and 4; PT, T485, note 3");
     let profile = Format::T485.default_profile();
-    let row = "Ten in a row: another request between them starts over.";
+    let row = t("Ten in a row: another request between them starts over.");
     let angle = Procedure {
         name: "reset-angle",
-        title: "Reset the angle by command",
-        about: "The present angle becomes 0; the turns are reset by a command of their own.",
+        title: t("Reset the angle by command"),
+        about: t("The present angle becomes 0; the turns are reset by a command of their own."),
         notes: [
             row,
-            "The replies count nothing: only the angle shows that it has acted.",
+            t("The replies count nothing: only the angle shows that it has acted."),
         ]
         .into(),
         ..of(profile, Change::ResetAngle, source)
     };
     let turns = Procedure {
         name: "reset-turns",
-        title: "Reset the turns by command",
-        about: "The turns become 0; the angle stays.",
+        title: t("Reset the turns by command"),
+        about: t("The turns become 0; the angle stays."),
         notes: [
             row,
-            "The replies carry the angle: read the turns to see that it has acted.",
+            t("The replies carry the angle: read the turns to see that it has acted."),
         ]
         .into(),
         ..of(profile, Change::ResetTurns, source)
@@ -65,8 +69,10 @@ pub(super) fn t485() -> Zero {
     Zero {
         procedures: [angle, turns].into(),
         missing: [Missing {
-            text: "The manuals name no time for which the encoder is silent afterwards, and no \
+            text: t(
+                "The manuals name no time for which the encoder is silent afterwards, and no \
                    command that brings the factory's zero back.",
+            ),
             source,
         }]
         .into(),
@@ -74,16 +80,16 @@ pub(super) fn t485() -> Zero {
 }
 
 pub(super) fn bus() -> Zero {
-    let source = "MPP and PT, BUS, set zero";
+    let source = t("MPP and PT, BUS, set zero");
     let zero = Procedure {
         name: "set-zero",
-        title: "Set zero by command",
-        about: "The present position of the encoder at one address becomes 0 and is stored.",
+        title: t("Set zero by command"),
+        about: t("The present position of the encoder at one address becomes 0 and is stored."),
         notes: [
-            "C = 0: the command before was not 00, get.",
-            "C = 1: the set zero before it was missing; the count starts from there.",
-            "Send each command only after the reply to the one before.",
-            "The bytes are for the factory's address 0x1F; another address has others.",
+            t("C = 0: the command before was not 00, get."),
+            t("C = 1: the set zero before it was missing; the count starts from there."),
+            t("Send each command only after the reply to the one before."),
+            t("The bytes are for the factory's address 0x1F; another address has others."),
         ]
         .into(),
         ..of(Format::Bus.default_profile(), Change::Zero, source)
@@ -91,8 +97,8 @@ pub(super) fn bus() -> Zero {
     Zero {
         procedures: [zero].into(),
         missing: [Missing {
-            text: "No command brings the factory's zero back.",
-            source: "MPP and PT, BUS: operations",
+            text: t("No command brings the factory's zero back."),
+            source: t("MPP and PT, BUS: operations"),
         }]
         .into(),
     }
@@ -100,7 +106,11 @@ pub(super) fn bus() -> Zero {
 
 /// The script of a change, in words.
 fn of(profile: Profile, change: Change, source: &'static str) -> Procedure {
-    let mut steps = Vec::from([Step::by_hand(STILL.0, STILL.1, "MPP and PT, repeatability")]);
+    let mut steps = Vec::from([Step::by_hand(
+        t(STILL.0),
+        t(STILL.1),
+        t("MPP and PT, repeatability"),
+    )]);
     if let Some(script) = change.script(&profile) {
         steps.extend(commands(&profile, change, script, source));
     }
@@ -138,17 +148,17 @@ fn commands(profile: &Profile, change: Change, script: &Script, source: &'static
         .any(|step| step.expect == Expect::CountsRound);
     let last = script.rounds;
     let counted = match counts {
-        true => format!("each round counts one more: C = 1, 2 … {last}"),
-        false => "a good reply to each".into(),
+        true => text!("each round counts one more: C = 1, 2 … {}", last),
+        false => t("a good reply to each").into(),
     };
     let times = match script.round.len() {
-        1 => format!("Send {} {last} times in a row.", round.join("")),
-        _ => format!("Send {}, {last} times in turn.", round.join(", then ")),
+        1 => text!("Send {} {} times in a row.", round.join(""), last),
+        _ => text!("Send {}, {} times in turn.", round.join(t(", then ")), last),
     };
     let mut steps = Vec::from([
         sent(
-            format!("Send {}.", named(script.before.send)),
-            "a good reply: the encoder is there, and what an earlier try has left is broken off"
+            text!("Send {}.", named(script.before.send)),
+            t("a good reply: the encoder is there, and what an earlier try has left is broken off")
                 .into(),
             &[script.before],
             1,
@@ -157,20 +167,20 @@ fn commands(profile: &Profile, change: Change, script: &Script, source: &'static
     ]);
     if script.settles > 0 {
         steps.push(Step::by_hand(
-            format!("Wait {} ms.", script.settles / 1_000),
-            "nothing: the encoder stores the zero and answers no command",
+            text!("Wait {} ms.", script.settles / 1_000),
+            t("nothing: the encoder stores the zero and answers no command"),
             source,
         ));
     }
     let proof = match script.proof {
-        Proof::Count => "the position is 0, but for what the shaft has moved",
-        Proof::Angle => "the angle is 0, but for what the shaft has moved",
-        Proof::Turns => "the turns are 0",
-        Proof::Errors => "no error",
-        Proof::Memory => "the byte that was written",
+        Proof::Count => t("the position is 0, but for what the shaft has moved"),
+        Proof::Angle => t("the angle is 0, but for what the shaft has moved"),
+        Proof::Turns => t("the turns are 0"),
+        Proof::Errors => t("no error"),
+        Proof::Memory => t("the byte that was written"),
     };
     steps.push(sent(
-        format!("Send {}.", named(script.after.send)),
+        text!("Send {}.", named(script.after.send)),
         proof.into(),
         &[script.after],
         1,
@@ -182,8 +192,8 @@ fn commands(profile: &Profile, change: Change, script: &Script, source: &'static
 fn title(send: Send) -> String {
     match send {
         Send::Bus(operation @ (Operation::Get | Operation::SetZero | Operation::SetAddress)) => {
-            format!("{:02b}, {}", operation.code(), operation.title())
+            format!("{:02b}, {}", operation.code(), t(operation.title()))
         }
-        other => other.title().into(),
+        other => t(other.title()).into(),
     }
 }

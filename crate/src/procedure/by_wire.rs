@@ -1,13 +1,18 @@
 //! Zeros that are set by inputs: IP-75, and Pepperl+Fuchs.
 
 use super::{Missing, Procedure, STILL, Step, Zero};
-use crate::{product::Interface, session::Micros};
+use crate::{
+    language::{msg, t},
+    product::Interface,
+    session::Micros,
+    text,
+};
 use alloc::{format, string::String, vec::Vec};
 
 /// How long the zero inputs of IP-75 are held after power-on, in microseconds (IP-75, 5.1.1).
 pub const HOLD: Micros = 3_000_000;
 
-const SOURCE: &str = "IP-75, 5.1.1";
+const SOURCE: &str = msg("IP-75, 5.1.1");
 
 pub(super) fn ip75(interface: Interface) -> Zero {
     // Only ASI1 carries ZPD.
@@ -20,25 +25,28 @@ pub(super) fn ip75(interface: Interface) -> Zero {
         }
     };
     let silence = match interface {
-        Interface::Ssi7 => "no word can be read",
-        _ => "the stream stops",
+        Interface::Ssi7 => t("no word can be read"),
+        _ => t("the stream stops"),
     };
     let steps = |wire: &str, sign: String| {
         [
-            Step::by_hand("Switch the supply off.", silence, SOURCE),
+            Step::by_hand(t("Switch the supply off."), silence, SOURCE),
             Step::by_hand(
-                format!("Join {wire} with 0 V (black)."),
-                "nothing yet: the input acts at power-on",
+                text!("Join {} with 0 V (black).", wire),
+                t("nothing yet: the input acts at power-on"),
                 SOURCE,
             ),
             Step::by_hand(
-                format!("Switch the supply on and keep the wire there for {seconds} s."),
+                text!(
+                    "Switch the supply on and keep the wire there for {} s.",
+                    seconds
+                ),
                 sign,
                 SOURCE,
             ),
             Step::by_hand(
-                "Take the wire off 0 V and insulate it.",
-                "the zero is stored and stays without power",
+                t("Take the wire off 0 V and insulate it."),
+                t("the zero is stored and stays without power"),
                 SOURCE,
             ),
         ]
@@ -47,17 +55,17 @@ pub(super) fn ip75(interface: Interface) -> Zero {
         Interface::Asi1 | Interface::Asi4 => Some(interface.format().default_profile()),
         _ => None,
     };
-    let late = "After those seconds the inputs do nothing: a wire joined later changes nothing.";
-    let still = Step::by_hand(STILL.0, STILL.1, "IP-75, table 1");
+    let late = t("After those seconds the inputs do nothing: a wire joined later changes nothing.");
+    let still = Step::by_hand(t(STILL.0), t(STILL.1), t("IP-75, table 1"));
     let set = Procedure {
         name: "zero-set",
-        title: "Set the zero with ZERO SET (violet)",
-        about: "The present position becomes 0.",
+        title: t("Set the zero with ZERO SET (violet)"),
+        about: t("The present position becomes 0."),
         steps: [still]
             .into_iter()
             .chain(steps(
-                "ZERO SET (violet)",
-                shown("ZPD becomes 0", "the angle is 0"),
+                t("ZERO SET (violet)"),
+                shown(t("ZPD becomes 0"), t("the angle is 0")),
             ))
             .collect(),
         notes: [late].into(),
@@ -66,11 +74,11 @@ pub(super) fn ip75(interface: Interface) -> Zero {
     };
     let reset = Procedure {
         name: "zero-reset",
-        title: "Back to the factory's zero with ZERO RESET (yellow)",
-        about: "The offset that was set is forgotten.",
+        title: t("Back to the factory's zero with ZERO RESET (yellow)"),
+        about: t("The offset that was set is forgotten."),
         steps: steps(
-            "ZERO RESET (yellow)",
-            shown("ZPD becomes 1", "the angle is the factory's again"),
+            t("ZERO RESET (yellow)"),
+            shown(t("ZPD becomes 1"), t("the angle is the factory's again")),
         )
         .into(),
         notes: [late].into(),
@@ -78,13 +86,15 @@ pub(super) fn ip75(interface: Interface) -> Zero {
         console,
     };
     let commands = Missing {
-        text: "The encoder listens to no command: only its two inputs set the zero.",
-        source: SOURCE,
+        text: t("The encoder listens to no command: only its two inputs set the zero."),
+        source: t(SOURCE),
     };
     let zpd = Missing {
-        text: "Only ASI1 has the bit ZPD; with this interface the angle alone shows what has \
+        text: t(
+            "Only ASI1 has the bit ZPD; with this interface the angle alone shows what has \
                happened.",
-        source: "IP-75, 5.3 and 5.4",
+        ),
+        source: t("IP-75, 5.3 and 5.4"),
     };
     Zero {
         procedures: [set, reset].into(),
@@ -96,36 +106,38 @@ pub(super) fn ip75(interface: Interface) -> Zero {
 }
 
 pub(super) fn preset() -> Zero {
-    let source = "P+F article, \"Preset function\"";
-    let table = "P+F article, table 6";
+    let source = t("P+F article, \"Preset function\"");
+    let table = t("P+F article, table 6");
     let steps = [
         Step::by_hand(
-            "Read the label: the model must not end in -H.",
-            "a model without -H has the input PRESET1",
+            t("Read the label: the model must not end in -H."),
+            t("a model without -H has the input PRESET1"),
             table,
         ),
         Step::by_hand(
-            "Put V/R at the level that the machine will run with: logic 1 counts down clockwise, \
+            t(
+                "Put V/R at the level that the machine will run with: logic 1 counts down clockwise, \
              logic 0 up.",
-            "the code falls or rises as wanted when the shaft turns clockwise",
-            "P+F article, \"Counting direction\"",
+            ),
+            t("the code falls or rises as wanted when the shaft turns clockwise"),
+            t("P+F article, \"Counting direction\""),
         ),
-        Step::by_hand(STILL.0, "the code stands still", source),
+        Step::by_hand(t(STILL.0), t("the code stands still"), source),
         Step::by_hand(
-            "Give the signal on PRESET1.",
-            "the code is 0 in this direction",
+            t("Give the signal on PRESET1."),
+            t("the code is 0 in this direction"),
             source,
         ),
     ];
     let preset = Procedure {
         name: "preset",
-        title: "Preset with PRESET1",
-        about: "The code becomes 0 in the present counting direction.",
+        title: t("Preset with PRESET1"),
+        about: t("The code becomes 0 in the present counting direction."),
         steps: steps.into(),
         notes: [
-            "The scale of the other direction moves by the value that was there before: at 1000 \
-             before the preset, by 1000.",
-            "Change V/R afterwards, and the code at the same place is not 0.",
+            t("The scale of the other direction moves by the value that was there before: at 1000 \
+             before the preset, by 1000."),
+            t("Change V/R afterwards, and the code at the same place is not 0."),
         ]
         .into(),
         change: None,
@@ -135,12 +147,14 @@ pub(super) fn preset() -> Zero {
         procedures: [preset].into(),
         missing: [
             Missing {
-                text: "Models -H have no PRESET1: take an offset off in the controller.",
+                text: t("Models -H have no PRESET1: take an offset off in the controller."),
                 source: table,
             },
             Missing {
-                text: "The article gives no level, no duration and no pin for PRESET1: they are \
+                text: t(
+                    "The article gives no level, no duration and no pin for PRESET1: they are \
                        on the sheet of the model.",
+                ),
                 source: table,
             },
         ]

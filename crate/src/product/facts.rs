@@ -1,6 +1,7 @@
 //! The characteristics of the series, as their manuals list them.
 
 use super::Series;
+use crate::language::{msg, t};
 
 /// A characteristic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,24 +48,24 @@ impl Group {
 
     /// Its name for people.
     #[must_use]
-    pub const fn title(self) -> &'static str {
+    pub fn title(self) -> &'static str {
         match self {
-            Self::Measuring => "resolution and accuracy",
-            Self::Electrical => "electrical",
-            Self::Output => "output",
-            Self::Connection => "connection",
-            Self::Mechanical => "mechanical",
-            Self::Environment => "environment",
+            Self::Measuring => t("resolution and accuracy"),
+            Self::Electrical => t("electrical"),
+            Self::Output => t("output"),
+            Self::Connection => t("connection"),
+            Self::Mechanical => t("mechanical"),
+            Self::Environment => t("environment"),
         }
     }
 }
 
 /// The name of the supply voltage.
-pub const SUPPLY: &str = "supply";
+pub const SUPPLY: &str = msg("supply");
 /// The name of the current.
-pub const CURRENT: &str = "current";
+pub const CURRENT: &str = msg("current");
 /// The name of the temperature range.
-pub const TEMPERATURE: &str = "working temperature";
+pub const TEMPERATURE: &str = msg("working temperature");
 
 impl Series {
     /// Its characteristics.
@@ -97,7 +98,7 @@ const P_F_HOLLOW: &[Series] = &[Series::Ass58, Series::Asm58];
 
 /// Writes the table with one line a row.
 macro_rules! facts {
-    ($($series:ident $group:ident $source:literal { $($name:expr => $value:literal;)* })*) => {
+    ($($series:ident $group:ident msg($source:literal) { $($name:expr => msg($value:literal);)* })*) => {
         /// All characteristics.
         pub static FACTS: &[Fact] = &[$($(Fact {
             series: $series,
@@ -110,144 +111,144 @@ macro_rules! facts {
 }
 
 facts! {
-    BOTH Measuring "MPP and PT, absolute values" {
-        "bits per turn" => "24, one count is 0.0772″";
-        "repeatability" => "0…±1 count, depending on the bits";
-        "update rate" => "50 kHz";
-        "greatest speed" => "8000 rpm";
+    BOTH Measuring msg("MPP and PT, absolute values") {
+        msg("bits per turn") => msg("24, one count is 0.0772″");
+        msg("repeatability") => msg("0…±1 count, depending on the bits");
+        msg("update rate") => msg("50 kHz");
+        msg("greatest speed") => msg("8000 rpm");
     }
-    BOTH Measuring "MPP and PT, system parameters" {
-        "accuracy" => "±0.01°";
+    BOTH Measuring msg("MPP and PT, system parameters") {
+        msg("accuracy") => msg("±0.01°");
     }
-    BOTH Electrical "MPP and PT, supply" {
-        SUPPLY => "4.5…5.5 V";
-        "battery" => "2.7…3.6 V";
-        "start-up" => "15 ms";
+    BOTH Electrical msg("MPP and PT, supply") {
+        SUPPLY => msg("4.5…5.5 V");
+        msg("battery") => msg("2.7…3.6 V");
+        msg("start-up") => msg("15 ms");
     }
-    MPP Electrical "MPP, supply" { CURRENT => "≈ 60 mA"; }
-    PT Electrical "PT, electrical" { CURRENT => "≈ 100 mA"; }
-    BOTH Electrical "MPP and PT, supply" {
-        "current from the battery" => "≈ 6 µA at 3.6 V, standing still";
-        "electrostatic discharge" => "human body ±2 kV, charged device ±1 kV at most";
+    MPP Electrical msg("MPP, supply") { CURRENT => msg("≈ 60 mA"); }
+    PT Electrical msg("PT, electrical") { CURRENT => msg("≈ 100 mA"); }
+    BOTH Electrical msg("MPP and PT, supply") {
+        msg("current from the battery") => msg("≈ 6 µA at 3.6 V, standing still");
+        msg("electrostatic discharge") => msg("human body ±2 kV, charged device ±1 kV at most");
     }
-    BOTH Output "MPP and PT, absolute values" {
-        "interfaces" => "SSI, BiSS-C, RS485, RS422, T485, BUS, PERIOD";
+    BOTH Output msg("MPP and PT, absolute values") {
+        msg("interfaces") => msg("SSI, BiSS-C, RS485, RS422, T485, BUS, PERIOD");
     }
-    MPP Connection "MPP, connectors" {
-        "connector SUR" => "SM08-SURS-TF, wire to board; Teflon twisted pairs 4P×AWG32";
-        "connector MOLEX" => "504050-0891, wire to board; twisted pairs 4P×AWG28, shielded, ⌀ ≈ 4.0 mm";
-        "shield" => "to ground on the side of the controller";
+    MPP Connection msg("MPP, connectors") {
+        msg("connector SUR") => msg("SM08-SURS-TF, wire to board; Teflon twisted pairs 4P×AWG32");
+        msg("connector MOLEX") => msg("504050-0891, wire to board; twisted pairs 4P×AWG28, shielded, ⌀ ≈ 4.0 mm");
+        msg("shield") => msg("to ground on the side of the controller");
     }
-    PT Connection "PT, connector" {
-        "connector" => "wire to board, by size; Teflon twisted pairs 4P×AWG32";
-        "shield" => "to ground on the side of the drive";
+    PT Connection msg("PT, connector") {
+        msg("connector") => msg("wire to board, by size; Teflon twisted pairs 4P×AWG32");
+        msg("shield") => msg("to ground on the side of the drive");
     }
-    BOTH Mechanical "MPP and PT, system and mechanical parameters" {
-        "mounting" => "axial, hollow";
-        "rotor" => "stainless steel";
-        "stator" => "aluminium alloy";
+    BOTH Mechanical msg("MPP and PT, system and mechanical parameters") {
+        msg("mounting") => msg("axial, hollow");
+        msg("rotor") => msg("stainless steel");
+        msg("stator") => msg("aluminium alloy");
     }
-    MPP Mechanical "MPP, first page" {
-        "width of the ring" => "10 mm on each side";
-        "hollow shaft" => "up to 100 mm";
-        "inner diameters" => "models for every 10 mm";
+    MPP Mechanical msg("MPP, first page") {
+        msg("width of the ring") => msg("10 mm on each side");
+        msg("hollow shaft") => msg("up to 100 mm");
+        msg("inner diameters") => msg("models for every 10 mm");
     }
-    PT Mechanical "PT, first page" {
-        "width of the ring" => "5 mm on each side";
-        "inner diameters" => "models for every 5 mm";
+    PT Mechanical msg("PT, first page") {
+        msg("width of the ring") => msg("5 mm on each side");
+        msg("inner diameters") => msg("models for every 5 mm");
     }
-    PT Mechanical "PT, drawing" {
-        "screws of the stator" => "M1.6 through the M2 threaded hole, or M2 in its thread";
-        "mounting of the rotor" => "tighten it with the special tool";
+    PT Mechanical msg("PT, drawing") {
+        msg("screws of the stator") => msg("M1.6 through the M2 threaded hole, or M2 in its thread");
+        msg("mounting of the rotor") => msg("tighten it with the special tool");
     }
-    BOTH Environment "MPP and PT, environment" {
-        TEMPERATURE => "−40…85, −40…105 or −40…125 °C, by order code";
-    }
-
-    IP75 Measuring "IP-75, table 1" {
-        "kind" => "single turn, absolute";
-        "bits per turn" => "14, 16 384 counts, one is 79.1″";
-        "repeatability" => "±1 count";
-        "accuracy" => "≤ 720″, standing still";
-        "update rate" => "> 10 kHz";
-        "greatest speed" => "4000 rpm";
-        "drift with temperature" => "≤ 0.5 ppm/K";
-    }
-    IP75 Electrical "IP-75, table 1" {
-        SUPPLY => "+5…+7 V";
-        "reversed supply" => "protected by a diode in series";
-        CURRENT => "≤ 0.2 A";
-        "start-up" => "first correct reading after ≤ 0.15 s";
-    }
-    IP75 Output "IP-75, table 1" {
-        "interfaces" => "RS-485 serial asynchronous, SSI serial synchronous";
-    }
-    IP75 Connection "IP-75, 5.1.2 and 5.1.3" {
-        "cable" => "without connector, AWG 24: six wires with RS-485, eight with SSI";
-        "terminators" => "none inside";
-    }
-    IP75 Mechanical "IP-75, table 1" {
-        "stator and rotor" => "⌀ 75 mm, 16.2 mm high without the connector";
-        "mass" => "100 g";
-    }
-    IP75 Mechanical "IP-75, 5.2" {
-        "greatest misalignment" => "0.25 mm";
-        "gap between rotor and stator" => "0.75…1.45 mm";
-    }
-    IP75 Environment "IP-75, table 1" {
-        TEMPERATURE => "−40…+80 °C";
-        "protection" => "IP67";
-    }
-    IP75 Environment "IP-75, 7 and 10" {
-        "storage" => "−50…+50 °C, at most 80 % relative humidity, packed";
-        "service life" => "5 years; warranty 1 year";
+    BOTH Environment msg("MPP and PT, environment") {
+        TEMPERATURE => msg("−40…85, −40…105 or −40…125 °C, by order code");
     }
 
-    P_F_SINGLE Measuring "P+F article, table 6" { "resolution" => "up to 16 bits"; }
-    P_F_MULTI Measuring "P+F article, table 6" { "resolution" => "up to 30 bits"; }
-    P_F_MULTI Measuring "P+F article, variety of designs" {
-        "turns" => "up to 14 bits, 16 384 turns, by a mechanical gear";
+    IP75 Measuring msg("IP-75, table 1") {
+        msg("kind") => msg("single turn, absolute");
+        msg("bits per turn") => msg("14, 16 384 counts, one is 79.1″");
+        msg("repeatability") => msg("±1 count");
+        msg("accuracy") => msg("≤ 720″, standing still");
+        msg("update rate") => msg("> 10 kHz");
+        msg("greatest speed") => msg("4000 rpm");
+        msg("drift with temperature") => msg("≤ 0.5 ppm/K");
     }
-    P_F Measuring "P+F article, table 6" {
-        "accuracy" => "±2 counts of 16 bits, ±1 of 13 bits, ±0.5 of 12 bits";
-        "greatest speed" => "12 000 rpm";
+    IP75 Electrical msg("IP-75, table 1") {
+        SUPPLY => msg("+5…+7 V");
+        msg("reversed supply") => msg("protected by a diode in series");
+        CURRENT => msg("≤ 0.2 A");
+        msg("start-up") => msg("first correct reading after ≤ 0.15 s");
     }
-    P_F Electrical "P+F article, table 6" { SUPPLY => "10…30 V"; }
-    P_F Output "P+F article, table 6" {
-        "code" => "Gray or binary, as ordered";
-        "counting direction" => "falling when turned clockwise";
-        "rate" => "0.1…1.5 Mbit/s";
-        "signals" => "RS-422";
-        "counting direction can be switched" => "yes, also with the suffix -H; the article's text says only without";
-        "preset to 0 (PRESET1)" => "yes; not with the suffix -H";
+    IP75 Output msg("IP-75, table 1") {
+        msg("interfaces") => msg("RS-485 serial asynchronous, SSI serial synchronous");
     }
-    P_F Mechanical "P+F article, table 6" {
-        "starting torque" => "< 5 N·cm (the article prints N·cm²)";
-        "moment of inertia" => "50 g·cm²";
-        "housing and flange" => "aluminium or stainless steel";
-        "shaft" => "stainless steel";
-        "mass" => "0.46 or 0.8 kg, probably in aluminium and in stainless steel";
-        "life" => "at least 10¹² turns";
+    IP75 Connection msg("IP-75, 5.1.2 and 5.1.3") {
+        msg("cable") => msg("without connector, AWG 24: six wires with RS-485, eight with SSI");
+        msg("terminators") => msg("none inside");
     }
-    P_F_SOLID Mechanical "P+F article, table 6" {
-        "load on the shaft" => "40 N axial, 110 N radial";
+    IP75 Mechanical msg("IP-75, table 1") {
+        msg("stator and rotor") => msg("⌀ 75 mm, 16.2 mm high without the connector");
+        msg("mass") => msg("100 g");
     }
-    P_F_SOLID Mechanical "P+F article, variety of designs" {
-        "housing and shaft" => "⌀ 58 mm; shafts of 6, 10 and 12 mm";
+    IP75 Mechanical msg("IP-75, 5.2") {
+        msg("greatest misalignment") => msg("0.25 mm");
+        msg("gap between rotor and stator") => msg("0.75…1.45 mm");
     }
-    P_F_HOLLOW Mechanical "P+F article, table 6" {
-        "displacement of the shaft, angular" => "±0.9°";
-        "displacement of the shaft, axial" => "±0.3 mm at rest, ±0.1 mm moving";
-        "displacement of the shaft, radial" => "±0.5 mm at rest, ±0.2 mm moving";
+    IP75 Environment msg("IP-75, table 1") {
+        TEMPERATURE => msg("−40…+80 °C");
+        msg("protection") => msg("IP67");
     }
-    P_F_HOLLOW Mechanical "P+F article, variety of designs" {
-        "housing" => "⌀ 58 mm";
+    IP75 Environment msg("IP-75, 7 and 10") {
+        msg("storage") => msg("−50…+50 °C, at most 80 % relative humidity, packed");
+        msg("service life") => msg("5 years; warranty 1 year");
     }
-    P_F Environment "P+F article, table 6" {
-        TEMPERATURE => "−40…+85 °C";
-        "storage" => "−40…+85 °C";
-        "protection" => "IP65";
-        "vibration" => "10 g, 10…2000 Hz";
-        "shock" => "100 g, 3 ms";
+
+    P_F_SINGLE Measuring msg("P+F article, table 6") { msg("resolution") => msg("up to 16 bits"); }
+    P_F_MULTI Measuring msg("P+F article, table 6") { msg("resolution") => msg("up to 30 bits"); }
+    P_F_MULTI Measuring msg("P+F article, variety of designs") {
+        msg("turns") => msg("up to 14 bits, 16 384 turns, by a mechanical gear");
+    }
+    P_F Measuring msg("P+F article, table 6") {
+        msg("accuracy") => msg("±2 counts of 16 bits, ±1 of 13 bits, ±0.5 of 12 bits");
+        msg("greatest speed") => msg("12 000 rpm");
+    }
+    P_F Electrical msg("P+F article, table 6") { SUPPLY => msg("10…30 V"); }
+    P_F Output msg("P+F article, table 6") {
+        msg("code") => msg("Gray or binary, as ordered");
+        msg("counting direction") => msg("falling when turned clockwise");
+        msg("rate") => msg("0.1…1.5 Mbit/s");
+        msg("signals") => msg("RS-422");
+        msg("counting direction can be switched") => msg("yes, also with the suffix -H; the article's text says only without");
+        msg("preset to 0 (PRESET1)") => msg("yes; not with the suffix -H");
+    }
+    P_F Mechanical msg("P+F article, table 6") {
+        msg("starting torque") => msg("< 5 N·cm (the article prints N·cm²)");
+        msg("moment of inertia") => msg("50 g·cm²");
+        msg("housing and flange") => msg("aluminium or stainless steel");
+        msg("shaft") => msg("stainless steel");
+        msg("mass") => msg("0.46 or 0.8 kg, probably in aluminium and in stainless steel");
+        msg("life") => msg("at least 10¹² turns");
+    }
+    P_F_SOLID Mechanical msg("P+F article, table 6") {
+        msg("load on the shaft") => msg("40 N axial, 110 N radial");
+    }
+    P_F_SOLID Mechanical msg("P+F article, variety of designs") {
+        msg("housing and shaft") => msg("⌀ 58 mm; shafts of 6, 10 and 12 mm");
+    }
+    P_F_HOLLOW Mechanical msg("P+F article, table 6") {
+        msg("displacement of the shaft, angular") => msg("±0.9°");
+        msg("displacement of the shaft, axial") => msg("±0.3 mm at rest, ±0.1 mm moving");
+        msg("displacement of the shaft, radial") => msg("±0.5 mm at rest, ±0.2 mm moving");
+    }
+    P_F_HOLLOW Mechanical msg("P+F article, variety of designs") {
+        msg("housing") => msg("⌀ 58 mm");
+    }
+    P_F Environment msg("P+F article, table 6") {
+        TEMPERATURE => msg("−40…+85 °C");
+        msg("storage") => msg("−40…+85 °C");
+        msg("protection") => msg("IP65");
+        msg("vibration") => msg("10 g, 10…2000 Hz");
+        msg("shock") => msg("100 g, 3 ms");
     }
 }

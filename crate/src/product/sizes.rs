@@ -4,6 +4,7 @@
 //! here may still be made: ask. Lengths are in millimetres.
 
 use super::Series;
+use crate::language::{msg, t};
 
 /// A size that a manual lists.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,10 +36,12 @@ pub enum Mount {
 }
 
 /// What the manuals leave open about the overall thickness.
-pub const THICKNESS: &str = "The manuals print an overall thickness in few rows: MPP 5.6 at \
+pub const THICKNESS: &str = msg(
+    "The manuals print an overall thickness in few rows: MPP 5.6 at \
     MPP-40-60 and 6.7 at MPP-60-80, PT 6.7 at PT-20B-30. The empty cells below and above probably \
     belong to the same merged cells, but the manuals do not show where these end: ask before you \
-    rely on it.";
+    rely on it.",
+);
 
 impl Size {
     /// How an order code begins.
@@ -70,7 +73,7 @@ impl Size {
         match (self.series, self.rotor_diameter()) {
             (Series::Pt, ..=15) => "SM06B-XSRS-ETB",
             (Series::Pt, _) => "SM08-SURS-TF",
-            _ => "SM08-SURS-TF or MOLEX 504050-0891",
+            _ => t("SM08-SURS-TF or MOLEX 504050-0891"),
         }
     }
 

@@ -10,11 +10,9 @@ use crate::{
         said,
     },
     record::Value,
+    text,
 };
-use alloc::{
-    format,
-    string::{String, ToString},
-};
+use alloc::string::{String, ToString};
 
 /// A parameter: what it is, its words and what they mean where it is not a number, and how it is
 /// written and read.
@@ -121,7 +119,7 @@ parameters! {
         set: |p, text| {
             Command::parse(text)
                 .map(|value| p.command = value)
-                .ok_or_else(|| format!("\"{text}\" is no command; known: 0 1 d s t"))
+                .ok_or_else(|| text!("\"{}\" is no command; known: 0 1 d s t", text))
         },
     },
     Parameter {
@@ -216,10 +214,10 @@ parameters! {
 
 fn chosen<T: Choice>(text: &str) -> Result<T, String> {
     T::of_word(text)
-        .ok_or_else(|| format!("\"{text}\" is not known; known: {}", T::WORDS.join(" ")))
+        .ok_or_else(|| text!("\"{}\" is not known; known: {}", text, T::WORDS.join(" ")))
 }
 
 fn number(text: &str) -> Result<u32, String> {
     text.parse()
-        .map_err(|_| format!("\"{text}\" is not a whole number"))
+        .map_err(|_| text!("\"{}\" is not a whole number", text))
 }

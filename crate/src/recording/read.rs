@@ -1,7 +1,7 @@
 //! Reads recordings, of Encoderscope and of others who write serial lines as pcapng.
 
 use super::{BESIDE, EVENT, Event, HEADER, LINK_TYPE, Line, LineError, Moment, Purpose, event};
-use crate::session::Micros;
+use crate::{language::t, say, session::Micros};
 use alloc::{
     string::{String, ToString},
     vec::Vec,
@@ -38,10 +38,12 @@ pub enum Unreadable {
 impl fmt::Display for Unreadable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotPcapng => f.write_str("this is no pcapng file"),
-            Self::NotSerial(link) => write!(
+            Self::NotPcapng => f.write_str(t("this is no pcapng file")),
+            Self::NotSerial(link) => say!(
                 f,
-                "its packets are of link type {link}, not of a serial line ({LINK_TYPE})"
+                "its packets are of link type {}, not of a serial line ({})",
+                link,
+                LINK_TYPE
             ),
         }
     }

@@ -8,8 +8,10 @@ use crate::{
         rs485::Command,
         t485::Request,
     },
+    language::{msg, t},
     layout::{Resolved, Shape},
     profile::Profile,
+    say,
 };
 use core::fmt;
 
@@ -26,12 +28,12 @@ pub struct Danger {
 
 impl fmt::Display for Danger {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
+        say!(
             f,
-            "0x{:02X} is part of {} on {} encoders",
-            self.byte,
-            self.what,
-            self.format.title()
+            "0x{} is part of {} on {} encoders",
+            format_args!("{:02X}", self.byte),
+            t(self.what),
+            t(self.format.title())
         )
     }
 }
@@ -61,13 +63,13 @@ pub fn danger(profile: &Profile, bytes: &[u8]) -> Option<Danger> {
 fn of_byte(byte: u8) -> Option<Danger> {
     let danger = |what, format| Some(Danger { byte, what, format });
     if Command::of_byte(byte).is_some_and(Command::changes_encoder) {
-        return danger("set zero", Format::Rs485);
+        return danger(msg("set zero"), Format::Rs485);
     }
     match Request::of_byte(byte).filter(|request| request.changes_encoder()) {
-        Some(Request::MemoryWrite) => danger("EEPROM write", Format::T485),
-        Some(Request::ResetErrors) => danger("reset errors", Format::T485),
-        Some(Request::ResetTurns) => danger("reset turns", Format::T485),
-        Some(_) => danger("reset angle", Format::T485),
+        Some(Request::MemoryWrite) => danger(msg("EEPROM write"), Format::T485),
+        Some(Request::ResetErrors) => danger(msg("reset errors"), Format::T485),
+        Some(Request::ResetTurns) => danger(msg("reset turns"), Format::T485),
+        Some(_) => danger(msg("reset angle"), Format::T485),
         None => None,
     }
 }
@@ -85,7 +87,7 @@ fn of_bus(profile: &Profile, byte: u8) -> Option<Danger> {
     // Whatever the parity says: what an encoder requires of it is not known.
     let operation = head.values(Bits::of_bytes(&[byte])).operation?;
     match Operation::of_code(operation).filter(|operation| operation.changes_encoder())? {
-        Operation::SetAddress => danger("set address"),
-        _ => danger("set zero"),
+        Operation::SetAddress => danger(msg("set address")),
+        _ => danger(msg("set zero")),
     }
 }

@@ -9,9 +9,11 @@ use crate::{
         own::Own,
         t485::{self, Request},
     },
+    language::t,
     layout::{Resolved, Role, Shape},
     profile::Profile,
     reading::Values,
+    say,
 };
 use alloc::vec::Vec;
 use core::fmt;
@@ -45,15 +47,16 @@ pub enum Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotSerial(format) => write!(
+            Self::NotSerial(format) => say!(
                 f,
                 "{} is not read over a serial port: paste a dump instead",
-                format.title()
+                t(format.title())
             ),
-            Self::NotOf(format) => write!(f, "{} has no such request", format.title()),
-            Self::ChangesEncoder(byte) => write!(
+            Self::NotOf(format) => say!(f, "{} has no such request", t(format.title())),
+            Self::ChangesEncoder(byte) => say!(
                 f,
-                "0x{byte:02X} changes the encoder and is never sent by polling"
+                "0x{} changes the encoder and is never sent by polling",
+                format_args!("{byte:02X}")
             ),
         }
     }

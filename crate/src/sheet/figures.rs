@@ -3,8 +3,10 @@
 use crate::{
     bits,
     decode::{Decoded, Frame, Summary},
+    language::t,
     layout::Role,
     reading::{FaultKind, Reading},
+    text,
 };
 use alloc::{
     string::{String, ToString},
@@ -75,11 +77,11 @@ fn count(tallies: &mut Vec<Tally>, name: &str, row: usize) {
 /// What faults of a kind have in common.
 fn kind_of(fault: &FaultKind) -> String {
     match fault {
-        FaultKind::Check { name, .. } => alloc::format!("{name} does not hold"),
-        FaultKind::Constant { name, .. } => alloc::format!("{name} is not what it must be"),
-        FaultKind::Range { name, .. } => alloc::format!("{name} is too large"),
-        FaultKind::Repeat { .. } => "a repeated word differs".to_string(),
-        FaultKind::Ambiguous => "where the frame begins is not certain".to_string(),
+        FaultKind::Check { name, .. } => text!("{} does not hold", t(name)),
+        FaultKind::Constant { name, .. } => text!("{} is not what it must be", t(name)),
+        FaultKind::Range { name, .. } => text!("{} is too large", t(name)),
+        FaultKind::Repeat { .. } => t("a repeated word differs").to_string(),
+        FaultKind::Ambiguous => t("where the frame begins is not certain").to_string(),
         other => other.to_string(),
     }
 }
@@ -93,7 +95,7 @@ impl Figures {
         match decoded {
             Decoded::Skip { why, .. } => {
                 let name = match why {
-                    crate::framing::Why::Truncated { .. } => "cut short".to_string(),
+                    crate::framing::Why::Truncated { .. } => t("cut short").to_string(),
                     other => other.to_string(),
                 };
                 count(&mut self.skips, &name, row);
@@ -119,7 +121,7 @@ impl Figures {
                     .iter()
                     .filter(|bit| bits::bit(raw, bit.place));
                 for bit in set.filter(|_| raw != 0) {
-                    count(&mut self.conditions, bit.name, row);
+                    count(&mut self.conditions, t(bit.name), row);
                 }
             }
             if field.row.role == Role::Temperature {
@@ -132,10 +134,10 @@ impl Figures {
             let mut named = frame.layout.fields().flat_map(|field| field.row.bits);
             // An error that is a named bit has been counted by its name.
             if reading.error && !named.any(|bit| bit.role == Some(Role::Error)) {
-                count(&mut self.conditions, "error", row);
+                count(&mut self.conditions, t("error"), row);
             }
             if reading.warning {
-                count(&mut self.conditions, "warning", row);
+                count(&mut self.conditions, t("warning"), row);
             }
             self.add_reading(&reading, frame.layout.shape.profile.turns_bits, time);
         }

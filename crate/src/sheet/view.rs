@@ -4,6 +4,7 @@ use super::{Entry, Kind, Row, Sheet, Skip};
 use crate::{
     decode::{Decoded, Frame},
     dump::Dump,
+    language::msg,
     reading::degrees,
 };
 use alloc::vec::Vec;
@@ -31,10 +32,10 @@ impl Show {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::All => "all",
-            Self::Frames => "frames",
-            Self::Faults => "faults",
-            Self::Conditions => "conditions",
+            Self::All => msg("all"),
+            Self::Frames => msg("frames"),
+            Self::Faults => msg("faults"),
+            Self::Conditions => msg("conditions"),
         }
     }
 
@@ -86,14 +87,14 @@ impl Quantity {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Start => "start",
-            Self::Time => "time",
-            Self::Turns => "turns",
-            Self::Angle => "angle",
-            Self::Degrees => "degrees",
-            Self::Status => "status",
-            Self::Temperature => "temperature",
-            Self::Speed => "speed",
+            Self::Start => msg("start"),
+            Self::Time => msg("time"),
+            Self::Turns => msg("turns"),
+            Self::Angle => msg("angle"),
+            Self::Degrees => msg("degrees"),
+            Self::Status => msg("status"),
+            Self::Temperature => msg("temperature"),
+            Self::Speed => msg("speed"),
         }
     }
 

@@ -7,6 +7,8 @@ use crate::{
     dump::Direction,
     format::Medium,
     framing::Why,
+    language::t,
+    say,
 };
 use alloc::vec::Vec;
 use core::fmt;
@@ -28,17 +30,23 @@ pub enum DigitsError {
 impl fmt::Display for DigitsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Empty => f.write_str("there are no digits"),
+            Self::Empty => f.write_str(t("there are no digits")),
             Self::NoDigit(letter) => {
-                write!(
+                say!(
                     f,
-                    "\"{letter}\" is no digit, neither of hexadecimal numbers nor of bits"
+                    "\"{}\" is no digit, neither of hexadecimal numbers nor of bits",
+                    letter
                 )
             }
             Self::NoFrame(Why::Truncated { have, need }) => {
-                write!(f, "{have} bits are no frame of this profile: it has {need}")
+                say!(
+                    f,
+                    "{} bits are no frame of this profile: it has {}",
+                    have,
+                    need
+                )
             }
-            Self::NoFrame(_) => f.write_str("this is no frame of this profile"),
+            Self::NoFrame(_) => f.write_str(t("this is no frame of this profile")),
         }
     }
 }

@@ -3,8 +3,10 @@
 use crate::{
     bits,
     explain::tenths,
+    language::{number, t},
     layout::{Field, Resolved, Role},
     profile::TurnsCode,
+    say,
 };
 use alloc::string::{String, ToString};
 use core::fmt;
@@ -32,8 +34,8 @@ pub enum Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::NoField => f.write_str("the frame has no such field"),
-            Self::NoNumber => f.write_str("this is no number"),
+            Self::NoField => f.write_str(t("the frame has no such field")),
+            Self::NoNumber => f.write_str(t("this is no number")),
             Self::Range {
                 least,
                 most,
@@ -41,11 +43,16 @@ impl fmt::Display for Refusal {
             } => {
                 let unit = if tenths { 10.0 } else { 1.0 };
                 match tenths {
-                    true => write!(f, "{} to {} fit", least as f64 / unit, most as f64 / unit),
-                    false => write!(f, "{least} to {most} fit"),
+                    true => say!(
+                        f,
+                        "{} to {} fit",
+                        number(least as f64 / unit),
+                        number(most as f64 / unit)
+                    ),
+                    false => say!(f, "{} to {} fit", least, most),
                 }
             }
-            Self::Turn => f.write_str("an angle is at least 0° and less than 360°"),
+            Self::Turn => f.write_str(t("an angle is at least 0° and less than 360°")),
         }
     }
 }
@@ -109,9 +116,8 @@ fn counts(degrees: f64, angle_bits: u32) -> Result<u64, Refusal> {
     if !(0.0..360.0).contains(&degrees) {
         return Err(Refusal::Turn);
     }
-    let codes = bits::codes(angle_bits);
-    let nearest = (degrees / 360.0 * codes as f64 + 0.5) as u128;
-    Ok((nearest % codes) as u64)
+    let nearest = (degrees / 360.0 * bits::power(angle_bits) + 0.5) as u128;
+    Ok(nearest as u64 & bits::mask(angle_bits as usize))
 }
 
 fn rounded(number: f64) -> i128 {

@@ -11,9 +11,11 @@ use crate::{
         t485::Request,
     },
     framing::Why,
+    language::t,
     layout::{Layout, Resolved, Shape},
     profile::Profile,
     reading::Values,
+    text,
 };
 use alloc::{
     format,
@@ -49,7 +51,7 @@ impl FrameKind {
         let hex: Vec<String> = bytes.iter().map(|byte| format!("0x{byte:02X}")).collect();
         Self {
             name: name.to_string(),
-            title: format!("request {}", hex.join(" ")),
+            title: text!("request {}", hex.join(" ")),
             direction: Direction::Sent,
             layout: Resolved::new(layout, Shape::of(*decoder.profile())),
             example: BitString::of_bytes(bytes),
@@ -72,9 +74,9 @@ impl FrameKind {
             title: match layout.layout.doc {
                 // It has the layout of an RS485 reply, and answers nothing.
                 _ if decoder.profile().format == Format::Period => {
-                    "Position and status, sent again and again".to_string()
+                    t("Position and status, sent again and again").to_string()
                 }
-                [] => decoder.profile().title().to_string(),
+                [] => t(decoder.profile().title()).to_string(),
                 _ => layout.layout.title(),
             },
             direction: Direction::Received,
@@ -178,7 +180,7 @@ impl Decoder {
                 let twice = Resolved::new(layout, shape);
                 let again = FrameKind {
                     name: "twice".to_string(),
-                    title: "The same word twice (multi-transmission)".to_string(),
+                    title: t("The same word twice (multi-transmission)").to_string(),
                     direction: Direction::Received,
                     example: twice.encode(&values),
                     layout: twice,

@@ -4,8 +4,9 @@ use super::{Adapter, Battery, Setup};
 use crate::{
     calculator::Fault,
     product::{Interface, Series},
+    text,
 };
-use alloc::{format, vec::Vec};
+use alloc::vec::Vec;
 
 /// The series and the interface that are entered under `series` and `interface`.
 ///
@@ -47,7 +48,7 @@ fn usual(series: Series) -> Interface {
 fn unknown(input: &'static str, key: &str, known: &[&str]) -> Fault {
     Fault {
         input,
-        message: format!("\"{key}\" is none of {}", known.join(", ")),
+        message: text!("\"{}\" is none of {}", key, known.join(", ")),
     }
 }
 

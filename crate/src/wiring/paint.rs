@@ -1,5 +1,6 @@
 //! Colours of wires.
 
+use crate::language::{msg, t};
 use alloc::{
     format,
     string::{String, ToString},
@@ -35,16 +36,16 @@ impl Colour {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Red => "red",
-            Self::Black => "black",
-            Self::Green => "green",
-            Self::Blue => "blue",
-            Self::Yellow => "yellow",
-            Self::Orange => "orange",
-            Self::White => "white",
-            Self::Gray => "gray",
-            Self::Violet => "violet",
-            Self::Brown => "brown",
+            Self::Red => msg("red"),
+            Self::Black => msg("black"),
+            Self::Green => msg("green"),
+            Self::Blue => msg("blue"),
+            Self::Yellow => msg("yellow"),
+            Self::Orange => msg("orange"),
+            Self::White => msg("white"),
+            Self::Gray => msg("gray"),
+            Self::Violet => msg("violet"),
+            Self::Brown => msg("brown"),
         }
     }
 
@@ -85,6 +86,21 @@ impl Paint {
             base,
             stripe: Some(stripe),
         }
+    }
+
+    /// Its name as it is said to people.
+    #[must_use]
+    pub fn title(self) -> String {
+        let name = match (self.base, self.stripe) {
+            (Colour::Green, Some(Colour::Black)) => t("green-black"),
+            (Colour::Yellow, Some(Colour::Black)) => t("yellow-black"),
+            (Colour::White, Some(Colour::Black)) => t("white-black"),
+            (base, None) => t(base.name()),
+            (base, Some(stripe)) => {
+                return format!("{}-{}", t(base.name()), t(stripe.name()));
+            }
+        };
+        name.to_string()
     }
 
     /// Its name: `green`, `green-black`.

@@ -5,7 +5,11 @@
 //! keep their colours, with an outline by which white is seen on paper and black on dark.
 
 use super::{End, OHMS, Paint, Place, Presence, Shield, Terminal, Wire, Wiring};
-use crate::diagram::svg::{Palette, escaped, number};
+use crate::{
+    diagram::svg::{Palette, escaped, number},
+    language::t,
+    text,
+};
 use alloc::{
     format,
     string::{String, ToString},
@@ -30,10 +34,10 @@ const BOLD: &str = " font-weight=\"600\"";
 #[must_use]
 pub fn svg(wiring: &Wiring) -> String {
     let setup = wiring.setup;
-    let title = format!(
+    let title = text!(
         "{} with {}, to {}",
-        setup.series.name(),
-        setup.interface.title(),
+        t(setup.series.name()),
+        t(setup.interface.title()),
         setup.adapter.title()
     );
     let rows = rows(wiring);
@@ -55,7 +59,7 @@ pub fn svg(wiring: &Wiring) -> String {
             Shield::Unsaid => 34.0,
         };
     let (width, height) = (number(WIDTH), number(height));
-    let described: String = wiring.wires.iter().map(said).collect();
+    let described: String = wiring.wires.iter().map(in_words).collect();
     let paper = Palette::LIGHT.panel;
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{width}\" \
@@ -71,23 +75,23 @@ pub fn svg(wiring: &Wiring) -> String {
 }
 
 /// A wire in words.
-fn said(wire: &Wire) -> String {
-    let pin = wire.pin.map(|pin| format!("pin {pin}, "));
-    let paint = wire.paint.map(|paint| format!("{}, ", paint.name()));
+fn in_words(wire: &Wire) -> String {
+    let pin = wire.pin.map(|pin| text!("pin {}, ", pin));
+    let paint = wire.paint.map(|paint| format!("{}, ", paint.title()));
     let goes = match wire.goes {
-        None => "is not used".to_string(),
-        Some(terminal) => format!("goes to {} {}", place(terminal.place), terminal.name),
+        None => t("is not used").to_string(),
+        Some(terminal) => text!("goes to {} {}", place(terminal.place), t(terminal.name)),
     };
     let (pin, paint) = (pin.unwrap_or_default(), paint.unwrap_or_default());
-    format!("{pin}{paint}{} {goes}. ", wire.signal)
+    format!("{pin}{paint}{} {goes}. ", t(wire.signal))
 }
 
-const fn place(place: Place) -> &'static str {
+fn place(place: Place) -> &'static str {
     match place {
-        Place::Supply => "supply",
-        Place::Adapter => "adapter",
-        Place::Battery => "battery",
-        Place::Switch => "switch",
+        Place::Supply => t("supply"),
+        Place::Adapter => t("adapter"),
+        Place::Battery => t("battery"),
+        Place::Switch => t("switch"),
     }
 }
 
@@ -138,10 +142,10 @@ fn encoder(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
     ink.frame((left, TOP - 34.0), (right, last + 22.0));
     let name = format!(
         "{} {}",
-        wiring.setup.series.name(),
-        wiring.setup.interface.title()
+        t(wiring.setup.series.name()),
+        t(wiring.setup.interface.title())
     );
-    let supply = wiring.supply.first().map_or("", |fact| fact.value);
+    let supply = wiring.supply.first().map_or("", |fact| t(fact.value));
     let y = TOP - 46.0;
     ink.text((left + 2.0, y), "w-ink", 13, BOLD, &name);
     ink.text((OTHER.0 + 2.0, y), "w-dim", 12, "", supply);
@@ -151,7 +155,7 @@ fn encoder(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
             let at = (left + 12.0, row.y + 4.0);
             ink.text(at, "w-dim", 12, "", &pin.to_string());
         }
-        ink.text((left + 28.0, row.y + 4.0), "w-ink", 12, "", wire.signal);
+        ink.text((left + 28.0, row.y + 4.0), "w-ink", 12, "", t(wire.signal));
     }
     // The battery's minus is joined to 0 V inside.
     if let (Some(zero), Some(minus)) = (height_of(rows, "0 V"), height_of(rows, "Battery−")) {
@@ -173,11 +177,11 @@ fn draw(ink: &mut Ink, wire: &Wire, y: f64) {
         (Some(_), None) => {}
         (Some(_), Some(paint)) => {
             let at = ((SHIELD.0 + SHIELD.1) / 2.0, y - 7.0);
-            ink.over(at, " text-anchor=\"middle\"", &paint.name());
+            ink.over(at, " text-anchor=\"middle\"", &paint.title());
         }
         (None, paint) => {
-            let paint = paint.map(|paint| format!("{}: ", paint.name()));
-            let text = format!("{}not used", paint.unwrap_or_default());
+            let paint = paint.map(|paint| format!("{}: ", paint.title()));
+            let text = text!("{}not used", paint.unwrap_or_default());
             ink.path(&[(to, y - 6.0), (to, y + 6.0)], "w-ink", 1.5, "");
             ink.over((to + 8.0, y + 4.0), "", &text);
         }
@@ -187,10 +191,10 @@ fn draw(ink: &mut Ink, wire: &Wire, y: f64) {
 /// The boxes at the other end, each around all terminals of its place.
 fn others(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
     let boxes = [
-        (Place::Supply, "supply"),
+        (Place::Supply, t("supply")),
         (Place::Adapter, wiring.setup.adapter.label()),
-        (Place::Battery, "battery"),
-        (Place::Switch, "input"),
+        (Place::Battery, t("battery")),
+        (Place::Switch, t("input")),
     ];
     for (place, heading) in boxes {
         let here = rows.iter().filter_map(|row| {
@@ -204,7 +208,7 @@ fn others(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
         ink.frame((OTHER.0, first - 26.0), (OTHER.1, last + 14.0));
         ink.text((OTHER.0 + 10.0, first - 12.0), "w-dim", 11, "", heading);
         for (y, name) in here {
-            ink.text((OTHER.0 + 18.0, y + 4.0), "w-ink", 12, BOLD, name);
+            ink.text((OTHER.0 + 18.0, y + 4.0), "w-ink", 12, BOLD, t(name));
             ink.dot((OTHER.0, y));
         }
     }
@@ -249,7 +253,7 @@ fn shield(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
     ink.path(&round, "w-dim", 1.2, " stroke-dasharray=\"5 4\"");
     let (x, y) = (OTHER.0 - 10.0, bottom + 20.0);
     if wiring.shield == Shield::Depends {
-        ink.text((left, y + 6.0), "w-dim", 11, "", "shield: see the notes");
+        ink.text((left, y + 6.0), "w-dim", 11, "", t("shield: see the notes"));
         return;
     }
     let lead = [(right, bottom - 8.0), (x, bottom - 8.0), (x, y)];
@@ -262,8 +266,8 @@ fn shield(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
             "",
         );
     }
-    ink.text((left, y + 6.0), "w-dim", 11, "", "shield");
-    ink.text((x + 16.0, y + 6.0), "w-dim", 11, "", "ground here");
+    ink.text((left, y + 6.0), "w-dim", 11, "", t("shield"));
+    ink.text((x + 16.0, y + 6.0), "w-dim", 11, "", t("ground here"));
 }
 
 fn resistors(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
@@ -272,13 +276,17 @@ fn resistors(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
         let (Some(upper), Some(lower)) = (height_of(rows, plus), height_of(rows, minus)) else {
             continue;
         };
-        let (x, label) = match (terminator.end, terminator.presence) {
-            (End::Encoder, Presence::Added) => (ENCODER.1 + 10.0, "add"),
-            (End::Encoder, Presence::Unclear) => (ENCODER.1 - 14.0, "inside?"),
-            (End::Encoder, Presence::Inside | Presence::Switched) => (ENCODER.1 - 14.0, "inside"),
-            (End::Controller, Presence::Inside | Presence::Unclear) => (OTHER.0 + 12.0, "inside"),
-            (End::Controller, Presence::Switched) => (OTHER.0 + 12.0, "on"),
-            (End::Controller, Presence::Added) => (OTHER.0 - 12.0, "add"),
+        let (x, text) = match (terminator.end, terminator.presence) {
+            (End::Encoder, Presence::Added) => (ENCODER.1 + 10.0, text!("{} Ω add", OHMS)),
+            (End::Encoder, Presence::Unclear) => (ENCODER.1 - 14.0, text!("{} Ω inside?", OHMS)),
+            (End::Encoder, Presence::Inside | Presence::Switched) => {
+                (ENCODER.1 - 14.0, text!("{} Ω inside", OHMS))
+            }
+            (End::Controller, Presence::Inside | Presence::Unclear) => {
+                (OTHER.0 + 12.0, text!("{} Ω inside", OHMS))
+            }
+            (End::Controller, Presence::Switched) => (OTHER.0 + 12.0, text!("{} Ω on", OHMS)),
+            (End::Controller, Presence::Added) => (OTHER.0 - 12.0, text!("{} Ω add", OHMS)),
         };
         let dash = match terminator.presence {
             Presence::Unclear => " stroke-dasharray=\"3 2\"",
@@ -295,7 +303,6 @@ fn resistors(ink: &mut Ink, wiring: &Wiring, rows: &[Row<'_>]) {
         let ends = [(edge, lower), (x, lower), (x, middle + 11.0)];
         ink.path(&ends, "w-ink", 1.2, dash);
         ink.resistor((x, middle), dash);
-        let text = format!("{OHMS} Ω {label}");
         let (x, anchor) = match (terminator.end, terminator.presence) {
             (End::Encoder, Presence::Added) => (x + 9.0, ""),
             (End::Encoder, _) | (End::Controller, Presence::Added) => {

@@ -7,7 +7,10 @@ use super::{
     Polarity::{Minus, Plus},
     Setup, Shield, Terminal, Wire,
 };
-use crate::product::{Interface, Series};
+use crate::{
+    language::{msg, t},
+    product::{Interface, Series},
+};
 use alloc::vec::Vec;
 
 /// MPP and PT have the same pins and other colours (MPP and PT, "Pin").
@@ -36,9 +39,9 @@ const PAINTS: [(Paint, Paint); 8] = {
     ]
 };
 
-const NOT_USED: &str = "not used with this interface: insulate the end";
+const NOT_USED: &str = msg("not used with this interface: insulate the end");
 const ZERO_INPUT: &str =
-    "to 0 V before power-on, and only to set or reset the zero; open otherwise";
+    msg("to 0 V before power-on, and only to set or reset the zero; open otherwise");
 
 type Signal = (&'static str, Line);
 
@@ -129,7 +132,10 @@ pub(super) fn of(setup: Setup) -> Vec<Wire> {
     match setup.series {
         Series::Mpp | Series::Pt => {
             let signals = signals(setup.interface).map(|signal| wire(signal, None));
-            let mut wires: Vec<Wire> = supplied("+5 V", "0 V").into_iter().chain(signals).collect();
+            let mut wires: Vec<Wire> = supplied(msg("+5 V"), msg("0 V"))
+                .into_iter()
+                .chain(signals)
+                .collect();
             if setup.battery == Battery::Fitted {
                 wires.extend(battery());
             }
@@ -145,12 +151,14 @@ pub(super) fn of(setup: Setup) -> Vec<Wire> {
                 _ => &[],
             };
             let colours = [Colour::Red, Colour::Black];
-            let supply = supplied("supply +", "0 V").into_iter().zip(colours);
+            let supply = supplied(msg("supply +"), msg("0 V"))
+                .into_iter()
+                .zip(colours);
             let painted = |wire: Wire, colour| Wire {
                 paint: Some(Paint::plain(colour)),
                 ..wire
             };
-            let switch = terminal(Place::Switch, "0 V or open", Level);
+            let switch = terminal(Place::Switch, msg("0 V or open"), Level);
             let zero = |(colour, signal)| {
                 let wire = wire(signal, Some(switch));
                 let note = ZERO_INPUT;
@@ -170,20 +178,20 @@ pub(super) fn of(setup: Setup) -> Vec<Wire> {
         }
         Series::Avs58 | Series::Avm58 | Series::Ass58 | Series::Asm58 => {
             let direction = Wire {
-                note: "logic 1 counts down clockwise, logic 0 up (TTL)",
+                note: msg("logic 1 counts down clockwise, logic 0 up (TTL)"),
                 ..wire(
                     ("V/R", Level),
-                    Some(terminal(Place::Switch, "0 or 1", Level)),
+                    Some(terminal(Place::Switch, msg("0 or 1"), Level)),
                 )
             };
             let preset = Wire {
-                note: "sets the zero; not on models -H",
+                note: msg("sets the zero; not on models -H"),
                 ..wire(
                     ("PRESET1", Level),
-                    Some(terminal(Place::Switch, "button", Level)),
+                    Some(terminal(Place::Switch, msg("button"), Level)),
                 )
             };
-            supplied("supply +", "GND")
+            supplied(msg("supply +"), "GND")
                 .into_iter()
                 .chain(signals(Interface::SsiTree).map(|signal| wire(signal, None)))
                 .chain([direction, preset])
@@ -197,13 +205,13 @@ fn battery() -> [Wire; 2] {
     let minus = Line::Battery(Minus);
     [
         wire(
-            ("Battery+", plus),
+            (msg("Battery+"), plus),
             Some(terminal(Place::Battery, "+", plus)),
         ),
         Wire {
-            note: "joined to 0 V inside the encoder",
+            note: msg("joined to 0 V inside the encoder"),
             ..wire(
-                ("Battery−", minus),
+                (msg("Battery−"), minus),
                 Some(terminal(Place::Battery, "−", minus)),
             )
         },
@@ -267,14 +275,14 @@ pub(super) const fn shield(series: Series) -> Shield {
     }
 }
 
-pub(super) const fn source(setup: Setup) -> &'static str {
+pub(super) fn source(setup: Setup) -> &'static str {
     match (setup.series, setup.interface) {
-        (Series::Mpp, _) => "MPP, \"Connection\", table of contacts",
-        (Series::Pt, _) => "PT, \"Electrical connection\", table of pins",
-        (Series::Ip75, Interface::Ssi7) => "IP-75, 5.1.3",
-        (Series::Ip75, _) => "IP-75, 5.1.2, table 2",
-        _ => {
-            "P+F article: signals only, no pins and no colours; those are on the encoder's own sheet"
-        }
+        (Series::Mpp, _) => t("MPP, \"Connection\", table of contacts"),
+        (Series::Pt, _) => t("PT, \"Electrical connection\", table of pins"),
+        (Series::Ip75, Interface::Ssi7) => t("IP-75, 5.1.3"),
+        (Series::Ip75, _) => t("IP-75, 5.1.2, table 2"),
+        _ => t(
+            "P+F article: signals only, no pins and no colours; those are on the encoder's own sheet",
+        ),
     }
 }

@@ -1,7 +1,10 @@
 //! Resistors at the ends of pairs: which are inside, and which the user adds.
 
 use super::{Adapter, Setup};
-use crate::product::{Interface, Series};
+use crate::{
+    language::{msg, t},
+    product::{Interface, Series},
+};
 use alloc::vec::Vec;
 
 /// What a terminator usually has, in ohms: the impedance of a twisted pair (P+F article, figure 4,
@@ -63,7 +66,7 @@ const fn at(
     }
 }
 
-const IN_ENCODER: &str = "inside the encoder";
+const IN_ENCODER: &str = msg("inside the encoder");
 
 const CLOCK: Pair = ("Clock+", "Clock−");
 const DATA: Pair = ("Data+", "Data−");
@@ -78,19 +81,22 @@ const IN: Pair = ("IN CLK+", "IN CLK−");
 /// The user's own, at the controller.
 const fn own(setup: Setup, between: Pair, source: &'static str) -> Terminator {
     let (presence, text) = match setup.adapter {
-        Adapter::TwoWire => (Presence::Switched, "the adapter has one"),
-        Adapter::TwoWireBare => (Presence::Added, "add one at the terminals of the adapter"),
+        Adapter::TwoWire => (Presence::Switched, msg("the adapter has one")),
+        Adapter::TwoWireBare => (
+            Presence::Added,
+            msg("add one at the terminals of the adapter"),
+        ),
         Adapter::FourWire => (
             Presence::Added,
-            "add one between R+ and R−, unless the adapter has one inside",
+            msg("add one between R+ and R−, unless the adapter has one inside"),
         ),
         Adapter::Master => (
             Presence::Added,
-            "add one between DATA+ and DATA−, unless the controller has one inside",
+            msg("add one between DATA+ and DATA−, unless the controller has one inside"),
         ),
         Adapter::Apci1710 => (
             Presence::Added,
-            "add one between Bx+ and Bx−; the article does not say whether the board has one",
+            msg("add one between Bx+ and Bx−; the article does not say whether the board has one"),
         ),
     };
     at(between, End::Controller, presence, text, source)
@@ -100,41 +106,41 @@ pub(super) fn of(setup: Setup) -> Vec<Terminator> {
     let inside = |pair, source| at(pair, End::Encoder, Presence::Inside, IN_ENCODER, source);
     match (setup.interface, setup.series) {
         (Interface::Ssi, _) => {
-            let source = "MPP and PT, SSI";
+            let source = t("MPP and PT, SSI");
             [inside(CLOCK, source), own(setup, DATA, source)].into()
         }
         (Interface::BissC, _) => {
-            let source = "MPP and PT, BiSS-C";
+            let source = t("MPP and PT, BiSS-C");
             [inside(MA, source), own(setup, SLO, source)].into()
         }
         (Interface::Rs422, _) => {
-            let source = "MPP and PT, RS422";
+            let source = t("MPP and PT, RS422");
             [inside(RX, source), own(setup, TX, source)].into()
         }
         (Interface::Rs485 | Interface::T485, series) => {
             let source = match setup.interface {
-                Interface::T485 => "MPP and PT, T485",
-                _ => "MPP and PT, RS485",
+                Interface::T485 => t("MPP and PT, T485"),
+                _ => t("MPP and PT, RS485"),
             };
             [shared(series, SHARED, source), own(setup, SHARED, source)].into()
         }
         (Interface::Period, series) => {
-            let source = "MPP and PT, PERIOD";
+            let source = t("MPP and PT, PERIOD");
             [shared(series, TX, source), own(setup, TX, source)].into()
         }
         (Interface::Bus, _) => {
-            let source = "MPP and PT, BUS";
+            let source = t("MPP and PT, BUS");
             [inside(SHARED, source), own(setup, SHARED, source)].into()
         }
         (Interface::Asi1 | Interface::Asi4, _) => [own(
             setup,
             OUT,
-            "IP-75, 5.1.2: none inside, add one where needed",
+            t("IP-75, 5.1.2: none inside, add one where needed"),
         )]
         .into(),
         (Interface::Ssi7, _) => {
-            let source = "IP-75, 5.1.3: none inside, add them where needed";
-            let text = "add one at the encoder's end of the cable";
+            let source = t("IP-75, 5.1.3: none inside, add them where needed");
+            let text = t("add one at the encoder's end of the cable");
             [
                 own(setup, OUT, source),
                 at(IN, End::Encoder, Presence::Added, text, source),
@@ -142,7 +148,7 @@ pub(super) fn of(setup: Setup) -> Vec<Terminator> {
             .into()
         }
         (Interface::SsiTree, _) => {
-            let source = "P+F article, figure 4";
+            let source = t("P+F article, figure 4");
             [inside(CLOCK, source), own(setup, DATA, source)].into()
         }
     }
@@ -151,16 +157,16 @@ pub(super) fn of(setup: Setup) -> Vec<Terminator> {
 /// At the encoder, where MPP and PT contradict each other: they are the same electronics.
 const fn shared(series: Series, between: Pair, source: &'static str) -> Terminator {
     let text = match series {
-        Series::Pt => {
+        Series::Pt => msg(
             "inside the encoder, says PT; MPP, the same electronics, says only that both ends \
              must be terminated. With the power off and the adapter unplugged, about \
-             120 Ω between the two wires show it"
-        }
-        _ => {
+             120 Ω between the two wires show it",
+        ),
+        _ => msg(
             "MPP says only that both ends must be terminated; PT, the same electronics, says that \
              the encoder has one inside. With the power off and the adapter unplugged, about 120 Ω \
-             between the two wires show it; add one only where they are not"
-        }
+             between the two wires show it; add one only where they are not",
+        ),
     };
     at(between, End::Encoder, Presence::Unclear, text, source)
 }

@@ -31,8 +31,9 @@ const SERIAL: &[&str] = &[
     "format=own layout=Mine;stream;const:8:0xa5,angle:24:le,crc:8:0x07",
 ];
 
-/// Own layouts that a master clocks.
-pub(crate) const OWN_CLOCKED: &[&str] = &[
+/// Profiles that a master clocks, whose clock and data are not told from recordings.
+pub(crate) const UNRECORDED: &[&str] = &[
+    "format=as5048",
     "format=own layout=rls-biss-26",
     "format=own layout=incoder-ssi6",
     "format=own layout=Mine;line;turns:3:gray,angle:10:gray,odd:1",
@@ -40,7 +41,7 @@ pub(crate) const OWN_CLOCKED: &[&str] = &[
 
 /// Profiles of every format and of own layouts.
 pub(crate) fn profiles() -> impl Iterator<Item = &'static str> {
-    SERIAL.iter().chain(PROFILES).chain(OWN_CLOCKED).copied()
+    SERIAL.iter().chain(PROFILES).chain(UNRECORDED).copied()
 }
 
 fn noisy(noise: &mut Noise, layout: &Resolved) -> BitString {
@@ -141,6 +142,7 @@ fn every_bit_of_every_layout_is_read_where_its_slot_says() {
     let known: Vec<Format> = SERIAL
         .iter()
         .chain(PROFILES)
+        .chain(UNRECORDED)
         .map(|text| decoder(text).profile().format)
         .collect();
     assert!(Format::ALL.iter().all(|format| known.contains(format)));

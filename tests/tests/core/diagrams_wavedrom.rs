@@ -4,7 +4,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use super::{
     captures::{PROFILES, values},
-    diagrams::{OWN_CLOCKED, profiles},
+    diagrams::{UNRECORDED, profiles},
     diagrams_svg::read,
     layouts::layouts,
 };
@@ -28,7 +28,7 @@ fn parsed(json: &Value) -> serde_json::Value {
 
 #[test]
 fn the_wave_of_a_clocked_frame_is_read_back_bit_by_bit() {
-    for parameters in PROFILES.iter().chain(OWN_CLOCKED) {
+    for parameters in PROFILES.iter().chain(UNRECORDED) {
         let decoder = decoder(parameters);
         for values in values(&decoder) {
             let bits = decoder.encode(&values);

@@ -122,11 +122,11 @@ fn what_follows_a_biss_frame_is_idle_or_the_frame_is_not_sure() {
 fn bad_parameters_are_named_with_what_would_fit() {
     assert_eq!(
         profile_error(&[("format", "t48")]),
-        "format: \"t48\" is not known; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree own"
+        "format: \"t48\" is not known; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree as5048 own"
     );
     assert_eq!(
         profile_error(&[]),
-        "format: is missing; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree own"
+        "format: is missing; known: ssi biss-c rs485 t485 bus period asi1 asi4 ssi7 ssi-tree as5048 own"
     );
     assert_eq!(
         profile_error(&[("format", "t485"), ("angle-bits", "40")]),

@@ -81,6 +81,7 @@ fn unguarded(layout: &Resolved) -> Option<&'static [&'static str]> {
     let profile = &layout.shape.profile;
     match profile.format {
         Format::Rs485 | Format::T485 | Format::Bus | Format::Period | Format::Asi1 => Some(&[]),
+        Format::As5048 => Some(&["idle", "tail"]),
         Format::BissC => Some(&["idle", "cds", "tail"]),
         Format::Ssi7 => Some(&["idle", "alarm", "tail"]),
         Format::SsiTree if profile.parity != Parity::None || layout.shape.repeats > 0 => {

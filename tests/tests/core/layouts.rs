@@ -33,7 +33,7 @@ pub(crate) fn layouts() -> &'static [Case] {
                 Format::Rs485 => cases.rs485(),
                 Format::T485 => cases.t485(),
                 Format::Bus => cases.bus(),
-                Format::Period => cases.period(),
+                Format::Period | Format::As5048 => cases.plain(*format),
                 Format::Asi1 => cases.asi1(),
                 Format::Asi4 => cases.asi4(),
                 Format::Ssi7 => cases.ssi7(),
@@ -165,8 +165,8 @@ impl Cases {
         }
     }
 
-    fn period(&mut self) {
-        for name in widths(Format::Period) {
+    fn plain(&mut self, format: Format) {
+        for name in widths(format) {
             self.main(name);
         }
     }

@@ -15,13 +15,13 @@ use encoderscope::{
 #[test]
 fn every_format_and_parameter_says_what_it_is() {
     for format in Format::ALL.iter().chain(&[Format::Own]) {
-        let spec = format.spec();
+        let manual = format.manual();
         assert!(
-            !spec.about.is_empty() && !spec.about.ends_with('.'),
+            !manual.about.is_empty() && !manual.about.ends_with('.'),
             "{format:?}"
         );
-        assert!(!spec.source.is_empty(), "{format:?}");
-        for name in spec.parameters {
+        assert!(!manual.source.is_empty(), "{format:?}");
+        for name in format.parameters() {
             assert!(!Profile::doc(name).is_empty(), "{name}");
             let (words, docs) = (Profile::words(name), Profile::word_docs(name));
             assert_eq!(words.len(), docs.len(), "{name}");

@@ -1,28 +1,29 @@
-// The few words of the element itself. Names and docs of fields come from the core.
-const WORDS = {
-  en: {
-    bit: 'bit',
-    bits: 'Bits of the frame, in order of transmission',
-    fields: 'Fields of the frame',
-    follow: 'checks follow',
-    good: 'good frame',
-    turns: 'turns',
-    invalid: 'the encoder says that the position is not valid',
-    warns: 'the encoder warns',
-    refused: 'refused by a receiver',
-  },
-  ru: {
-    bit: 'бит',
-    bits: 'Биты кадра в порядке передачи',
-    fields: 'Поля кадра',
-    follow: 'контрольные поля пересчитываются',
-    good: 'кадр верен',
-    turns: 'обороты',
-    invalid: 'датчик сообщает, что положение недействительно',
-    warns: 'датчик предупреждает',
-    refused: 'приёмник отвергает кадр',
-  },
-};
+// What elements say in a language that is not English. The texts come once, when the first element
+// of the language asks for them; until then, and where they cannot be had, it is English.
+import { learn, speak } from '../../pkg/encoder-frame.js';
+import ru from '../../pkg/ru.json?url';
 
-/** The words of a language such as `ru` or `ru-RU`; English where there are none. */
-export const words = (lang) => WORDS[lang?.split('-')[0].toLowerCase()] ?? WORDS.en;
+let texts;
+let request;
+
+const isRussian = (lang) => /^ru\b/i.test(lang);
+
+async function load() {
+  try {
+    const pairs = await (await fetch(ru)).json();
+    learn(pairs.flat().join('\0'));
+    texts = Object.fromEntries(pairs);
+  } catch {
+    texts = {};
+  }
+}
+
+/** When the texts of a language such as `ru` or `ru-RU` are there; nothing where they are. */
+export const coming = (lang) => (isRussian(lang) && !texts ? (request ??= load()) : undefined);
+
+/** What says texts in a language. The core speaks it too, until it is told otherwise. */
+export function voice(lang) {
+  const other = isRussian(lang) ? texts : undefined;
+  speak(!!other);
+  return (text) => other?.[text] ?? text;
+}

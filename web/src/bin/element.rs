@@ -9,14 +9,37 @@ use encoderscope::{
     decode::Decoder,
     dump::Direction,
     format::{Format, Medium},
+    language::{self, Catalogue, t},
     profile::Profile,
     record::{Record, Value},
     sketch::{Checks, Sketch},
+    text,
 };
+use std::cell::Cell;
 use wasm_bindgen::prelude::*;
+
+// Half the size of the one that comes with Rust.
+#[global_allocator]
+static ALLOCATOR: talc::wasm::WasmDynamicTalc = talc::wasm::new_wasm_dynamic_allocator();
 
 /// What stands between names and values of attributes.
 const BREAK: char = '\0';
+
+thread_local! {
+    static LEARNT: Cell<Option<&'static Catalogue>> = const { Cell::new(None) };
+}
+
+/// Learns what is said in another language ([`Catalogue::read`]).
+#[wasm_bindgen]
+pub fn learn(texts: String) {
+    LEARNT.set(Some(Catalogue::read(texts)));
+}
+
+/// Speaks the language that has been learnt from now on, or English again.
+#[wasm_bindgen]
+pub fn speak(other: bool) {
+    language::speak(LEARNT.get().filter(|_| other));
+}
 
 /// The names of all parameters of a profile, with spaces between.
 #[wasm_bindgen]
@@ -91,8 +114,9 @@ fn sketch(attributes: &str) -> Result<Sketch, String> {
         Some("sent") => Some(Direction::Sent),
         Some("received") => Some(Direction::Received),
         Some(other) => {
-            return Err(format!(
-                "direction: \"{other}\" is not known; known: sent received"
+            return Err(text!(
+                "direction: \"{}\" is not known; known: sent received",
+                other
             ));
         }
     };
@@ -101,7 +125,7 @@ fn sketch(attributes: &str) -> Result<Sketch, String> {
             Sketch::of_digits(decoder, text, direction).map_err(|why| format!("frame: {why}"))
         }
         None => Sketch::example(decoder, direction.unwrap_or(Direction::Received))
-            .ok_or_else(|| "direction: nothing is sent to such an encoder".to_string()),
+            .ok_or_else(|| t("direction: nothing is sent to such an encoder").to_string()),
     }
 }
 
@@ -112,12 +136,22 @@ fn view(sketch: &Sketch) -> Record {
         .collect();
     let notes = sketch.notes();
     let notes = notes.iter().map(|note| note.record().into()).collect();
+    // What is wrong, for people; the record is the same in every language.
+    let frame = sketch.frame();
+    let faults = frame.faults().into_iter();
+    let faults = faults.map(|fault| Value::Text(fault.kind.to_string()));
+    // The kind was named in the language of its time.
+    let kind = sketch.kind();
+    let mut kinds = sketch.decoder().frame_kinds().into_iter();
+    let title = kinds.find(|known| known.name == kind.name);
+    let title = title.map_or_else(|| kind.title.clone(), |known| known.title);
     let is_clocked = sketch.decoder().profile().medium() == Medium::Bits;
     Record::new()
-        .with("title", sketch.kind().title.as_str())
+        .with("title", title.as_str())
         .with("frame", sketch.text())
         .with("bits", digits)
         .with("clocked", is_clocked)
         .with("notes", Value::List(notes))
-        .with("record", sketch.frame().record())
+        .with("faults", Value::List(faults.collect()))
+        .with("record", frame.record())
 }

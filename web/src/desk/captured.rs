@@ -4,6 +4,7 @@ use crate::message::Count;
 use encoderscope::{
     capture::{Clocked, Clocking, Recording, Violation},
     dump::Dump,
+    language::t,
     profile::Profile,
 };
 
@@ -84,10 +85,10 @@ impl Captured {
     pub(super) fn new(read: &Recording, chosen: Option<Profile>) -> Self {
         let mut notes: Vec<String> = read.wires.reasons.iter().map(ToString::to_string).collect();
         if chosen.is_none() {
-            notes.push("The word length is taken from the recording: choose the format to have the number of clocks judged.".into());
+            notes.push(t("The word length is taken from the recording: choose the format to have the number of clocks judged.").into());
         }
         if read.clocking == Clocking::Counted {
-            notes.push("There are no times in it, so that timing is not judged.".into());
+            notes.push(t("There are no times in it, so that timing is not judged.").into());
         }
         notes.extend(read.stray.iter().map(ToString::to_string));
         Self {
@@ -107,7 +108,7 @@ impl Captured {
         }
         let violations = std::mem::take(&mut self.waiting);
         for violation in &violations {
-            let name = violation.kind.name();
+            let name = t(violation.kind.name());
             match self.timing.iter_mut().find(|known| known.name == name) {
                 Some(known) => known.count += 1.0,
                 None => self.timing.push(Count {

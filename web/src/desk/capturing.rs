@@ -13,8 +13,10 @@ use encoderscope::{
     detect::Detection,
     dump::Dump,
     format::{Format, Link},
+    language::number,
     profile::Profile,
     sheet::Sheet,
+    text,
 };
 use std::rc::Rc;
 
@@ -165,14 +167,18 @@ impl Desk {
         let state = self.state.borrow();
         let whole = state.source.as_ref().map_or(0.0, Source::len);
         match state.read < whole {
-            true => format!("Stopped after {:.1} MB: {why}.", state.read / 1e6),
+            true => text!(
+                "Stopped after {} MB: {}.",
+                number(format_args!("{:.1}", state.read / 1e6)),
+                why
+            ),
             false => refusal(why),
         }
     }
 }
 
 fn refusal(why: &Unreadable) -> String {
-    format!("The recording cannot be read: {why}.")
+    text!("The recording cannot be read: {}.", why)
 }
 
 impl super::State {

@@ -6,7 +6,7 @@ use crate::{
     link,
     message::{FileKind, FromDesk},
 };
-use encoderscope::export::table::Table;
+use encoderscope::{export::table::Table, language::t};
 use js_sys::Array;
 use wasm_bindgen::JsValue;
 use web_sys::{Blob, BlobPropertyBag};
@@ -33,7 +33,7 @@ impl Desk {
                 .and_then(|parts| Blob::new_with_str_sequence_and_options(&parts, &options).ok());
             match blob {
                 Some(blob) => desk.post_with(FromDesk::Exported(kind), Some(blob.into())),
-                None => desk.post(FromDesk::Refused("The file cannot be written.".into())),
+                None => desk.post(FromDesk::Refused(t("The file cannot be written.").into())),
             }
         });
     }

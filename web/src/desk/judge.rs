@@ -6,7 +6,6 @@ use crate::{
     message::{CandidateView, FromDesk, NearView},
 };
 use encoderscope::{
-    decode::Decoder,
     detect::{Candidate, Change, Detection, Near, near},
     dump::{self, Dump},
     profile::Profile,
@@ -153,14 +152,7 @@ impl Desk {
             state.paper = Paper::Whole(change.apply(dump));
             state.captured.sample = change.apply(&state.captured.sample);
             state.captured.notes.push(change.sentence());
-            let profile = state.profile;
-            state.sheet = profile
-                .and_then(|profile| Decoder::new(profile).ok())
-                .map(Sheet::new);
-            let (filter, order) = state.shown;
-            if let Some(sheet) = &mut state.sheet {
-                sheet.show(filter, order);
-            }
+            state.blank();
         }
     }
 }

@@ -32,7 +32,6 @@ impl State {
     /// What the page is told.
     pub(super) fn overview(&self) -> Overview {
         let mut view = Overview {
-            source: self.name.clone(),
             profile: self.profile.as_ref().map(link::query).unwrap_or_default(),
             read: (self.read, self.source.as_ref().map_or(0.0, Source::len)),
             done: self.done,

@@ -48,6 +48,17 @@ impl Turn {
     }
 }
 
+impl super::State {
+    /// Begins with an empty sheet.
+    pub(super) fn blank(&mut self) {
+        self.sheet = self.decoder().map(Sheet::new);
+        let (filter, order) = self.shown;
+        if let Some(sheet) = &mut self.sheet {
+            sheet.show(filter, order);
+        }
+    }
+}
+
 impl Desk {
     /// Begins to read and decode the source with the profile.
     pub(super) fn begin(&self) {
@@ -56,14 +67,40 @@ impl Desk {
             state.job += 1;
             state.done = false;
             state.framing = Framing::Idle;
-            state.sheet = state.decoder().map(Sheet::new);
-            let (filter, order) = state.shown;
-            if let Some(sheet) = &mut state.sheet {
-                sheet.show(filter, order);
-            }
+            state.blank();
             state.job
         };
         self.run(job);
+    }
+
+    /// Says all that was said of the input once more, in another language: what has been read of
+    /// it is decoded and judged anew, since what is said is kept as it was said.
+    pub(super) fn say_again(&self) {
+        let job = {
+            let mut state = self.state.borrow_mut();
+            state.judge.forget();
+            if state.source.is_none() {
+                return;
+            }
+            state.awaited = state.awaited.or(state.explained);
+            let whole = matches!(state.paper, Paper::Whole(_)) && !state.captured.is_some();
+            if !(state.done && whole) {
+                drop(state);
+                return self.begin();
+            }
+            state.job += 1;
+            state.done = false;
+            state.blank();
+            let change = state.judge.change.map(Change::sentence);
+            state.captured.notes = change.into_iter().collect();
+            state.job
+        };
+        let desk = self.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            if desk.decode(job, &mut Turn::new()).await {
+                desk.conclude(job).await;
+            }
+        });
     }
 
     /// Reads and decodes, in the background.
@@ -128,14 +165,23 @@ impl Desk {
                 return Ok(());
             }
         }
+        self.conclude(job).await;
+        Ok(())
+    }
+
+    /// Says what has become of the input, all of which has been decoded.
+    async fn conclude(&self, job: u32) {
         self.state.borrow_mut().finish();
         self.tell(true);
         self.tell_marks();
+        let awaited = self.state.borrow_mut().awaited.take();
+        if let Some(index) = awaited {
+            self.explain(index);
+        }
         self.arrange(job).await;
         if self.wants(job) {
             self.judge(job).await;
         }
-        Ok(())
     }
 
     /// What has changed in a recording that has been read.

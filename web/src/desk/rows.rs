@@ -9,8 +9,10 @@ use encoderscope::{
     export::table::Table,
     format::Medium,
     framing::Why,
+    language::{number, t},
     record::hex,
     sheet::Row,
+    text,
 };
 
 /// Bytes that a row shows.
@@ -31,18 +33,17 @@ fn bytes_text(bits: Bits<'_>) -> String {
 
 /// Why input is in no frame.
 fn reason(why: Why, bits: Bits<'_>, medium: Medium, direction: Option<Direction>) -> String {
-    let unit = match medium {
-        Medium::Bits => "bits",
-        Medium::Bytes | Medium::Text => "bytes",
-    };
     match why {
-        Why::Request if direction == Some(Direction::Sent) => "sent".into(),
-        Why::Request => "a request, or its echo".into(),
-        Why::NoFrame | Why::Unasked => match bits.bytes().len() {
-            1 => "1 byte of no frame".into(),
-            count => format!("{} bytes of no frame", grouped(count as u64)),
+        Why::Request if direction == Some(Direction::Sent) => t("sent").into(),
+        Why::Request => t("a request, or its echo").into(),
+        Why::NoFrame | Why::Unasked => {
+            let count = grouped(bits.bytes().len() as u64);
+            text!("{} {0|byte|bytes} of no frame", count)
+        }
+        Why::Truncated { have, need } => match medium {
+            Medium::Bits => text!("{} of {} bits", have, need),
+            Medium::Bytes | Medium::Text => text!("{} of {} bytes", have, need),
         },
-        Why::Truncated { have, need } => format!("{have} of {need} {unit}"),
     }
 }
 
@@ -50,8 +51,8 @@ fn reason(why: Why, bits: Bits<'_>, medium: Medium, direction: Option<Direction>
 fn conditions(frame: &Frame<'_>) -> String {
     let values = frame.values();
     let flags = [
-        (values.error == Some(true), "error"),
-        (values.warning == Some(true), "warning"),
+        (values.error == Some(true), t("error")),
+        (values.warning == Some(true), t("warning")),
     ];
     let mut set: Vec<&str> = flags
         .iter()
@@ -61,7 +62,7 @@ fn conditions(frame: &Frame<'_>) -> String {
     let notes = frame.explain();
     for note in &notes {
         let named = note.bits.iter().filter(|bit| bit.set && bit.role.is_none());
-        set.extend(named.map(|bit| bit.name));
+        set.extend(named.map(|bit| t(bit.name)));
     }
     set.join(" · ")
 }
@@ -69,10 +70,11 @@ fn conditions(frame: &Frame<'_>) -> String {
 /// What a frame says beside its position.
 fn beside(frame: &Frame<'_>) -> Option<String> {
     let values = frame.values();
-    let tenths = |value: i32| format!("{:.1}", f64::from(value) / 10.0);
-    let temperature = values.temperature.map(|value| tenths(value) + " °C");
-    let speed = values.speed.map(|value| tenths(value) + " rev/s");
-    let count = values.count.map(|count| format!("{count} counted"));
+    let tenths = |value: i32| number(format!("{:.1}", f64::from(value) / 10.0));
+    let temperature = values.temperature;
+    let temperature = temperature.map(|value| format!("{} °C", tenths(value)));
+    let speed = values.speed.map(|value| text!("{} rev/s", tenths(value)));
+    let count = values.count.map(|count| text!("{} counted", count));
     temperature.or(speed).or(count)
 }
 
@@ -121,7 +123,7 @@ pub(super) fn row_view(row: &Row<'_>, medium: Medium) -> RowView {
             view.check = match (faults.first(), values.crc, values.parity) {
                 (Some(fault), ..) => fault.kind.to_string(),
                 (None, Some(crc), _) => format!("✓ {:02X}", crc.received),
-                (None, None, Some(_)) => "✓ parity".into(),
+                (None, None, Some(_)) => t("✓ parity").into(),
                 (None, None, None) => String::new(),
             };
         }
@@ -134,6 +136,7 @@ impl From<&Note> for FieldView {
         let width: usize = note.spans.iter().map(|span| span.len).sum();
         Self {
             name: note.name.replace('_', " "),
+            title: t(note.name).replace('_', " "),
             class: note.class.name().to_owned(),
             spans: note
                 .spans
@@ -151,7 +154,7 @@ impl From<&Note> for FieldView {
                 .bits
                 .iter()
                 .filter(|bit| bit.set)
-                .map(|bit| (bit.name.to_owned(), bit.doc.to_owned()))
+                .map(|bit| (t(bit.name).to_owned(), bit.doc.to_owned()))
                 .collect(),
             fault: note.fault.map(|fault| fault.kind.to_string()),
         }
@@ -193,8 +196,10 @@ pub(super) fn explained(row: &Row<'_>, medium: Medium) -> Explained {
             view.answers = frame.request.map(|start| start as f64);
             if frame.bits.len() > EXPLAINED {
                 let more = grouped((frame.bits.len() - EXPLAINED) as u64);
-                view.says
-                    .push(format!("{more} bits more follow on this line"));
+                view.says.push(text!(
+                    "{} {0|bit more follows|bits more follow} on this line",
+                    more
+                ));
             }
             // What a field is wrong about stands beside it.
             let of_all = frame.faults().into_iter();

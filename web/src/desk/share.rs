@@ -6,6 +6,7 @@
 
 use crate::browser::error_text;
 use base64::{Engine as _, prelude::BASE64_URL_SAFE_NO_PAD as URL_SAFE_NO_PAD};
+use encoderscope::{language::t, text};
 use js_sys::{Array, Reflect, Uint8Array};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_futures::JsFuture;
@@ -41,7 +42,7 @@ pub(super) async fn pack(load: &Load) -> Result<String, String> {
         Load::Bytes(bytes) => (b'B', &bytes[..]),
     };
     if data.len() > MOST {
-        return Err(format!(
+        return Err(text!(
             "Too long for a link: more than {} MB of input.",
             MOST / 1_000_000
         ));
@@ -60,7 +61,7 @@ pub(super) async fn pack(load: &Load) -> Result<String, String> {
 }
 
 fn too_long(len: usize) -> String {
-    format!(
+    text!(
         "Too long for a link: it would have about {} kB, and mail programs cut links beyond {} kB.",
         len.div_ceil(1000),
         LONGEST / 1000
@@ -74,14 +75,15 @@ fn too_long(len: usize) -> String {
 /// It is of a later version, damaged, or unpacks to more than a page can hold.
 pub(super) async fn unpack(payload: &str) -> Result<Load, String> {
     let damaged = || {
-        "The link is damaged: a part of it is missing or was changed. Ask for it again, as a file if it was cut.".to_owned()
+        t("The link is damaged: a part of it is missing or was changed. Ask for it again, as a file if it was cut.").to_owned()
     };
     let Some((version, rest)) = payload.split_once('.') else {
         return Err(damaged());
     };
     if version != "1" {
-        return Err(format!(
-            "The link was written by a later Encoderscope (version {version}): reload the page to get the latest."
+        return Err(text!(
+            "The link was written by a later Encoderscope (version {}): reload the page to get the latest.",
+            version
         ));
     }
     let packed = URL_SAFE_NO_PAD.decode(rest).map_err(|_| damaged())?;
@@ -106,7 +108,7 @@ pub(super) async fn unpack(payload: &str) -> Result<Load, String> {
 }
 
 fn said(error: &JsValue) -> String {
-    format!("The browser cannot pack links: {}", error_text(error).1)
+    text!("The browser cannot pack links: {}", error_text(error).1)
 }
 
 /// What comes out of a transforming stream.

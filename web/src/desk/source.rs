@@ -1,7 +1,7 @@
 //! Where input comes from: text, bytes, or a file that is read in pieces.
 
 use crate::browser::error_text;
-use encoderscope::detect::Change;
+use encoderscope::{detect::Change, language::number, text};
 use js_sys::Uint8Array;
 use std::rc::Rc;
 use wasm_bindgen_futures::JsFuture;
@@ -17,8 +17,10 @@ pub(super) const HEAD: usize = 1 << 16;
 /// Input that can be read again from its beginning.
 #[derive(Clone, Debug)]
 pub(super) enum Source {
-    /// In memory.
-    Memory(Rc<[u8]>),
+    /// Text that was pasted or typed, or that a link carried.
+    Text(Rc<[u8]>),
+    /// Bytes that a link carried.
+    Bytes(Rc<[u8]>),
     /// A file.
     File(Blob),
 }
@@ -27,7 +29,7 @@ impl Source {
     /// Bytes of it.
     pub(super) fn len(&self) -> f64 {
         match self {
-            Self::Memory(bytes) => bytes.len() as f64,
+            Self::Text(bytes) | Self::Bytes(bytes) => bytes.len() as f64,
             Self::File(blob) => blob.size(),
         }
     }
@@ -35,10 +37,10 @@ impl Source {
     /// Why it is not opened.
     pub(super) fn refusal(&self) -> Option<String> {
         (self.len() > LARGEST).then(|| {
-            format!(
-                "The file has {:.1} GB; more than {:.0} GB do not fit into a browser's memory. Cut it in pieces.",
-                self.len() / 1e9,
-                LARGEST / 1e9
+            text!(
+                "The file has {} GB; more than {} GB do not fit into a browser's memory. Cut it in pieces.",
+                number(format_args!("{:.1}", self.len() / 1e9)),
+                format_args!("{:.0}", LARGEST / 1e9)
             )
         })
     }
@@ -55,14 +57,14 @@ impl Source {
     /// Up to `count` bytes from `at`.
     pub(super) async fn read(&self, at: f64, count: usize) -> Result<Vec<u8>, String> {
         match self {
-            Self::Memory(bytes) => {
+            Self::Text(bytes) | Self::Bytes(bytes) => {
                 let rest = bytes.get(at as usize..).unwrap_or_default();
                 Ok(rest[..rest.len().min(count)].into())
             }
             Self::File(blob) => {
                 let said = |error| {
                     let (_, message) = error_text(&error);
-                    format!("The file cannot be read: {message}")
+                    text!("The file cannot be read: {}", message)
                 };
                 let slice = blob
                     .slice_with_f64_and_f64(at, at + count as f64)

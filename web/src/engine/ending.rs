@@ -2,27 +2,38 @@
 
 use super::run::Wire;
 use crate::{browser::error_text, message::Link};
+use encoderscope::language::msg;
 use wasm_bindgen::JsValue;
 
 /// Why a port could not be opened, and what to do about it.
 pub(super) fn refused(error: &JsValue) -> Link {
     let (name, message) = error_text(error);
-    let reason = match name.as_str() {
-        "InvalidStateError" => {
-            "This page still holds it: pull the adapter out and plug it in again.".into()
-        }
-        "SecurityError" => {
-            "The browser blocks serial ports here: see the site's settings, or ask who manages \
-             this computer."
-                .into()
-        }
-        "NetworkError" => format!(
-            "{message} Close other tabs and other programs that use it; on Linux your user must \
-             be in the group dialout."
+    let (reason, hint) = match name.as_str() {
+        "InvalidStateError" => (
+            msg("This page still holds it: pull the adapter out and plug it in again.").into(),
+            "",
         ),
-        _ => message,
+        "SecurityError" => (
+            msg(
+                "The browser blocks serial ports here: see the site's settings, or ask who manages \
+                 this computer.",
+            )
+            .into(),
+            "",
+        ),
+        "NetworkError" => (
+            message,
+            msg(
+                "Close other tabs and other programs that use it; on Linux your user must be in the \
+                 group dialout.",
+            ),
+        ),
+        _ => (message, ""),
     };
-    Link::Refused { reason }
+    Link::Refused {
+        reason,
+        hint: hint.into(),
+    }
 }
 
 /// Closes a port that was let go.

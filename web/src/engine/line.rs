@@ -5,6 +5,7 @@ use super::{
     ending::{refused, shut},
     run::{Run, Wire},
     talk::Talk,
+    unfit,
 };
 use crate::{
     browser::{now, pause},
@@ -35,9 +36,8 @@ impl Engine {
     /// Opens a port for reading.
     pub(super) fn begin_open(&self, port: PortId, profile: &str) {
         let interval = self.state.borrow().interval;
-        let session = match Self::session(profile, interval) {
-            Ok(made) => made,
-            Err(reason) => return self.set_link(Link::Unfit { reason }),
+        let Ok(session) = Self::session(profile, interval) else {
+            return self.set_link(unfit(profile));
         };
         self.set_link(Link::Opening);
         let baud = session.decoder().profile().baud;

@@ -9,7 +9,10 @@ use crate::{
     store::{self, Out},
 };
 use copy::Copy;
-use encoderscope::session::Micros;
+use encoderscope::{
+    language::{in_english, msg, t},
+    session::Micros,
+};
 use js_sys::{Array, Date, Uint8Array};
 use std::rc::Rc;
 use wasm_bindgen::JsValue;
@@ -79,7 +82,7 @@ impl Sink {
             Self::Coming => Ok(()),
             Self::File(out) => out.append(bytes),
             Self::Memory { size, .. } if *size + bytes.len() as f64 > ROOM => {
-                Err("There is no room left for it in memory.".into())
+                Err(msg("There is no room left for it in memory.").into())
             }
             Self::Memory { parts, size } => {
                 parts.push(&Uint8Array::from(bytes));
@@ -155,7 +158,7 @@ impl Engine {
         wasm_bindgen_futures::spawn_local(async move {
             match engine.recording(&name).await {
                 Some(file) => engine.hand(Answer::File(name), Some(file.into())),
-                None => engine.fault("This recording is not there any more."),
+                None => engine.fault(t("This recording is not there any more.")),
             }
             engine.list();
         });
@@ -377,10 +380,14 @@ impl State {
             .map(|(at, text)| (at as f64 / 1e3, text.to_owned()))
             .collect();
         let (size, since) = self.tally.transcript().kept(now());
+        let snapshot = in_english(|| self.snapshot());
+        // The page has not seen it.
+        self.tally.touch();
         Story {
             happenings,
             size: size as f64,
             seconds: since as f64 / 1e6,
+            snapshot: Box::new(snapshot),
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     message::{Answer, Link, Replay, Snapshot},
     store,
 };
-use encoderscope::session::Micros;
+use encoderscope::{language::t, session::Micros};
 use js_sys::JSON;
 use player::{Player, Stage};
 use wasm_bindgen::{JsCast, JsValue};
@@ -40,7 +40,7 @@ impl Engine {
                     engine.kick();
                     engine.list();
                 }
-                None => engine.fault("This recording is not there any more."),
+                None => engine.fault(t("This recording is not there any more.")),
             }
         });
     }
@@ -100,7 +100,7 @@ impl Engine {
                 player.report()
             };
             if fault {
-                engine.fault("The file cannot be read any more.");
+                engine.fault(t("The file cannot be read any more."));
             }
             if let Some(text) = report {
                 engine.open_report(text);

@@ -1,21 +1,20 @@
 //! An open link: a session, or what it rests for, over a port or with the built-in encoder.
 
+mod beside;
+
 use super::talk::{After, Talk};
 use crate::{
     link::query,
-    message::{Link, Setting},
+    message::Link,
     serial::{Port, Reader},
-    tally::{RESTLESS, Tally},
+    tally::Tally,
 };
 use encoderscope::{
     bits::Bits,
-    decode::Decoder,
     doctor::{Doctor, Finding},
     emulator::Emulator,
-    finder::{self, Finder},
+    language::{msg, t},
     profile::Profile,
-    recording::Purpose,
-    sequence::{Change, Event, Holds, Runner},
     session::{Micros, Output, Session},
 };
 
@@ -24,7 +23,7 @@ const ASLEEP: Micros = 1_000_000;
 
 /// How a setting ends that is broken off before its first command.
 pub(super) const UNBEGUN: &str =
-    "Stopped: it was broken off. Nothing was sent that changes an encoder.";
+    msg("Stopped: it was broken off. Nothing was sent that changes an encoder.");
 
 /// An open link.
 pub(super) struct Run {
@@ -179,8 +178,10 @@ impl Run {
                 // Another device may have been connected meanwhile.
                 Some(Talk::Scan(_, after)) => {
                     if let After::Set(setting) = after {
-                        let why = "Broken off, for the page slept. Nothing was sent that changes an encoder.";
-                        tally.refuse(now, *setting, why);
+                        let why = msg(
+                            "Broken off, for the page slept. Nothing was sent that changes an encoder.",
+                        );
+                        tally.refuse(now, *setting, move || t(why).into());
                     }
                     self.talk = None;
                 }
@@ -278,7 +279,9 @@ impl Run {
                     tally.follow(now, &event);
                 }
             }
-            Some(Talk::Scan(_, After::Set(setting))) => tally.refuse(now, *setting, UNBEGUN),
+            Some(Talk::Scan(_, After::Set(setting))) => {
+                tally.refuse(now, *setting, || t(UNBEGUN).into());
+            }
             _ => {}
         }
     }
@@ -299,191 +302,4 @@ impl Run {
         tally.echo(session.echo());
         spoke
     }
-
-    /// Lets what the session rests for speak; returns whether it did.
-    fn follow(&mut self, at: Micros, tally: &mut Tally) -> bool {
-        match &mut self.talk {
-            None => false,
-            Some(Talk::Set(setting, runner)) => {
-                let setting = *setting;
-                let Some(event) = runner.poll_output() else {
-                    return false;
-                };
-                tally.follow(at, &event);
-                match event {
-                    Event::Transmit(bytes) => self.send(at, &bytes, Purpose::Setting, tally),
-                    Event::Progress { .. } => {}
-                    Event::Ended { holds, .. } => {
-                        self.talk = None;
-                        self.resume(at, setting.change(), holds, tally);
-                    }
-                }
-                true
-            }
-            Some(Talk::Hand(hand)) => {
-                if let Some(bytes) = hand.poll_output() {
-                    self.send(at, &bytes, Purpose::Hand, tally);
-                } else if let Some(reply) = hand.reply() {
-                    tally.answered(at, reply);
-                    self.talk = None;
-                } else {
-                    return false;
-                }
-                true
-            }
-            Some(Talk::Scan(finder, _)) => {
-                match finder.poll_output() {
-                    None => return false,
-                    Some(finder::Output::Transmit(bytes)) => {
-                        self.send(at, &bytes, Purpose::Scan, tally);
-                    }
-                    // A scan stays at the baud rate of its profile.
-                    Some(finder::Output::Open(_)) => finder.handle_opened(at),
-                    Some(finder::Output::Ended) => {
-                        if let Some(Talk::Scan(finder, after)) = self.talk.take() {
-                            self.scanned(at, &finder, after, tally);
-                        }
-                    }
-                }
-                true
-            }
-            Some(Talk::Find(finder, _)) => {
-                let Some(output) = finder.poll_output() else {
-                    return false;
-                };
-                tally.searched(finder);
-                match (output, &mut self.wire) {
-                    (finder::Output::Transmit(bytes), _) => {
-                        self.send(at, &bytes, Purpose::Scan, tally);
-                    }
-                    (finder::Output::Open(baud), Wire::Demo(emulator)) => {
-                        emulator.faults.rate = Some(baud);
-                        emulator.drop_unread(at);
-                        finder.handle_opened(at);
-                    }
-                    (finder::Output::Open(_), Wire::Replay) => {}
-                    (finder::Output::Open(baud), Wire::Port { .. }) => {
-                        self.todo = Some(Todo::Reopen(baud));
-                    }
-                    (finder::Output::Ended, _) => {
-                        tally.end_search();
-                        self.todo = Some(Todo::Close);
-                    }
-                }
-                true
-            }
-        }
-    }
-
-    fn send(&mut self, at: Micros, bytes: &[u8], purpose: Purpose, tally: &mut Tally) {
-        tally.sent(at, bytes, purpose);
-        self.wire.send(at, bytes);
-    }
-
-    /// A scan is over.
-    fn scanned(&mut self, at: Micros, finder: &Finder, after: After, tally: &mut Tally) {
-        let addresses = finder.found().first();
-        let addresses = addresses.map_or(&[][..], |found| &found.addresses);
-        match after {
-            After::Read => {
-                tally.scanned(addresses, finder);
-                self.read_devices(at, None, addresses, tally);
-            }
-            After::Set(setting) => {
-                let own = self
-                    .session
-                    .as_ref()
-                    .map(|session| session.decoder().profile().address);
-                let alone = addresses.iter().map(|address| u32::from(*address)).eq(own);
-                if alone && finder.disturbed().is_empty() && !finder.is_restless() {
-                    self.set(setting, at, tally);
-                } else {
-                    tally.refuse(at, setting, &not_alone(addresses, finder));
-                }
-            }
-        }
-    }
-
-    /// Begins a sequence.
-    pub(super) fn set(&mut self, setting: Setting, now: Micros, tally: &mut Tally) {
-        let Some(session) = &mut self.session else {
-            return;
-        };
-        match Runner::new(session.decoder(), setting.change(), now) {
-            Some(runner) => {
-                session.rest();
-                tally.begin(now, setting, runner.total());
-                self.talk = Some(Talk::Set(setting, Box::new(runner)));
-            }
-            None => tally.refuse(
-                now,
-                setting,
-                "This encoder has no such sequence. Nothing was sent.",
-            ),
-        }
-    }
-
-    /// Reads several devices of a BUS in turn, with the one at `watched` on the dial.
-    pub(super) fn read_devices(
-        &mut self,
-        now: Micros,
-        watched: Option<u8>,
-        addresses: &[u8],
-        tally: &mut Tally,
-    ) {
-        if let Some(session) = &mut self.session {
-            session.rest();
-        }
-        self.follow_session(now, tally);
-        let (Some(session), Some(first)) = (&mut self.session, addresses.first()) else {
-            return;
-        };
-        let profile = *session.decoder().profile();
-        let own = addresses
-            .iter()
-            .find(|address| u32::from(**address) == profile.address);
-        let address = u32::from(watched.unwrap_or(*own.unwrap_or(first)));
-        let decoder = Decoder::new(Profile { address, ..profile }).ok();
-        let made =
-            decoder.and_then(|decoder| Session::of_devices(decoder, addresses, self.interval).ok());
-        if let Some(new) = made {
-            self.doctor = Doctor::new(*new.decoder().profile(), now);
-            tally.start(now, new.decoder().clone());
-            *session = new;
-        }
-    }
-
-    /// Reads on after a sequence, at the address that the encoder has now.
-    fn resume(&mut self, at: Micros, change: Change, holds: Holds, tally: &mut Tally) {
-        if let (Change::Address(address), Holds::New) = (change, holds) {
-            tally.forget_devices();
-            self.read_devices(at, Some(address), &[address], tally);
-        }
-    }
-}
-
-/// Why the address cannot be set.
-fn not_alone(addresses: &[u8], finder: &Finder) -> String {
-    let list = |addresses: &[u8]| {
-        let list: Vec<String> = addresses.iter().map(ToString::to_string).collect();
-        list.join(", ")
-    };
-    let disturbed = finder.disturbed();
-    let why = match (addresses, disturbed) {
-        _ if finder.is_restless() => RESTLESS.to_owned(),
-        ([], []) => "No device answered the scan.".to_owned(),
-        (_, []) if addresses.len() > 1 => {
-            format!(
-                "{} devices answer, at {}.",
-                addresses.len(),
-                list(addresses)
-            )
-        }
-        (_, []) => format!("The device answers at {} now.", list(addresses)),
-        _ => format!(
-            "What answers at {} is damaged: two devices may share the address.",
-            list(disturbed)
-        ),
-    };
-    format!("{why} Connect exactly one device, then try again. Nothing was sent.")
 }

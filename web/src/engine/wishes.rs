@@ -4,9 +4,11 @@ use super::{
     DEMO_INTERVAL, Engine, SNAPSHOTS, State,
     run::{Run, Todo, UNBEGUN, Wire},
     talk::{After, Talk},
+    unfit,
 };
 use crate::{
     browser::now,
+    language,
     message::{Answer, FromEngine, Knobs, Link, STILL, Setting, Snapshot, Supply, Wish},
     tally::News,
 };
@@ -14,6 +16,7 @@ use encoderscope::{
     emulator::{Emulator, Faults, ZeroInput},
     finder::Finder,
     format::t485::Request,
+    language::{in_english, t},
     sequence::danger,
     session::{Ask, Hand, Micros},
 };
@@ -27,6 +30,10 @@ impl Engine {
         match wish {
             // A recording hears nothing.
             Wish::Scan | Wish::Watch(_) | Wish::Send { .. } | Wish::ReadMemory(_) if replays => {}
+            Wish::Speak => {
+                language::speak(&file.unwrap_or_default());
+                state().tally.touch();
+            }
             Wish::Set(setting) => state().begin(setting),
             Wish::StopSetting => state().stop(),
             Wish::ForgetSetting => state().tally.forget_progress(),
@@ -90,11 +97,16 @@ impl State {
 
     /// The link is another one, or in another state.
     pub(super) fn tell_link(&mut self, now: Micros) {
-        let text = match &self.link {
-            Link::Refused { reason } | Link::Unfit { reason } => {
-                format!("link {}: {reason}", self.link.name())
+        let link = in_english(|| self.link_said());
+        let name = link.name();
+        let text = match &link {
+            Link::Refused { reason, hint } if !hint.is_empty() => {
+                format!("link {name}: {reason} {hint}")
             }
-            link => format!("link {}", link.name()),
+            Link::Refused { reason, .. } | Link::Unfit { reason, .. } => {
+                format!("link {name}: {reason}")
+            }
+            _ => format!("link {name}"),
         };
         self.tally.happened(now, text);
         self.tally.touch();
@@ -103,18 +115,19 @@ impl State {
     /// Begins a sequence with the encoder that is being read.
     pub(super) fn begin(&mut self, setting: Setting) {
         if self.is_replaying() {
-            let why = "This is a recording. Nothing was sent.";
+            let why = || t("This is a recording. Nothing was sent.").into();
             return self.tally.refuse(self.time(), setting, why);
         }
         let still = self.tally.moved(now()).is_some_and(|moved| moved < STILL);
         let Some(run) = &mut self.run else {
-            return self.tally.refuse(now(), setting, "Nothing is connected.");
+            let why = || t("Nothing is connected.").into();
+            return self.tally.refuse(now(), setting, why);
         };
         let Some(session) = run.session.as_mut().filter(|_| run.talk.is_none()) else {
             return;
         };
         if setting.needs_rest() && !still {
-            let why = "The shaft must stand still for a second. Nothing was sent.";
+            let why = || t("The shaft must stand still for a second. Nothing was sent.").into();
             return self.tally.refuse(now(), setting, why);
         }
         let scan = Finder::scan(session.decoder().profile(), now());
@@ -137,7 +150,7 @@ impl State {
         match &mut run.talk {
             Some(Talk::Set(_, runner)) => runner.stop(),
             Some(Talk::Scan(_, After::Set(setting))) => {
-                self.tally.refuse(now(), *setting, UNBEGUN);
+                self.tally.refuse(now(), *setting, || t(UNBEGUN).into());
                 run.talk = None;
             }
             Some(Talk::Scan(_, After::Read)) => run.talk = None,
@@ -310,13 +323,21 @@ impl State {
         }
     }
 
-    fn snapshot(&mut self) -> Snapshot {
+    /// How the link is, in the language that is spoken.
+    fn link_said(&self) -> Link {
+        match &self.link {
+            Link::Unfit { profile, .. } => unfit(profile),
+            link => link.clone(),
+        }
+    }
+
+    pub(super) fn snapshot(&mut self) -> Snapshot {
         let time = self.time();
         let mut snapshot = self.tally.snapshot(time);
         if let Some(saved) = &self.saved {
             return saved.clone();
         }
-        snapshot.link = self.link.clone();
+        snapshot.link = self.link_said();
         match &self.run {
             Some(run) => snapshot.busy = run.talk.is_some(),
             None => snapshot.rate = 0.0,

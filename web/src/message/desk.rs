@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 /// From the page to the worker. A file comes beside its message.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ToDesk {
+    /// Speak the language of the texts that come with this, English where none come, and say all that
+    /// was said of the input once more.
+    Speak,
     /// Text was pasted or typed.
     Text {
         /// The text.
@@ -14,8 +17,6 @@ pub enum ToDesk {
     },
     /// A file was chosen or dropped.
     File {
-        /// What it is called.
-        name: String,
         /// The profile, as the parameters of a link.
         profile: String,
     },
@@ -181,8 +182,6 @@ pub struct Count {
 /// How far decoding is, and what the rows come to.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Overview {
-    /// What is decoded, in a few words: nothing for text that is on the page.
-    pub source: String,
     /// How the input was written.
     pub writing: String,
     /// The profile that is decoded with, as the parameters of a link.
@@ -326,6 +325,8 @@ pub struct Explained {
 pub struct FieldView {
     /// Its name.
     pub name: String,
+    /// Its name for people.
+    pub title: String,
     /// The class that its colour comes from.
     pub class: String,
     /// The runs of bits it consists of: first bit and number.

@@ -2,6 +2,7 @@
 
 use super::{Counts, Snapshot};
 use crate::plot::Trace;
+use encoderscope::language::msg;
 use serde::{Deserialize, Serialize};
 
 /// What runs.
@@ -29,7 +30,7 @@ pub struct Recording {
     pub copy: Option<String>,
     /// It runs.
     pub runs: bool,
-    /// Why it was ended, where the user did not.
+    /// Why it was ended, where the user did not; in English.
     pub fault: Option<String>,
 }
 
@@ -89,16 +90,21 @@ impl Kept {
     }
 }
 
+/// What happens to a status bit: it is set, it is not any more, and it was for less than a look.
+pub const BIT_CHANGES: [&str; 3] = [msg("on"), msg("off"), msg("on for a moment")];
+
 /// What happened of late.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Story {
-    /// Each with its time in milliseconds since 1970.
+    /// Each with its time in milliseconds since 1970, in English.
     pub happenings: Vec<(f64, String)>,
     /// What is kept of the line: how many bytes.
     pub size: f64,
     /// For how many seconds they go back.
     pub seconds: f64,
+    /// What the page shows now, in English.
+    pub snapshot: Box<Snapshot>,
 }
 
 /// What a recording comes to.

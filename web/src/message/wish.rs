@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 /// From the page to the engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Wish {
+    /// Speak the language of the texts that come with this; English where none come.
+    Speak,
     /// Change the encoder that is being read: begin a sequence.
     Set(Setting),
     /// End the sequence before its next command.

@@ -9,12 +9,14 @@ use encoderscope::{
     decode::{Decoder, Frame},
     finder::Finder,
     format::Format,
+    language::{msg, t},
     recording::Purpose,
     session::Micros,
+    text,
 };
 
 /// Why nothing can be asked.
-pub(crate) const RESTLESS: &str = "Something talks on the line all the time.";
+pub(crate) const RESTLESS: &str = msg("Something talks on the line all the time.");
 
 /// What is kept of a device of a BUS.
 pub(super) struct Kept {
@@ -52,11 +54,41 @@ impl Kept {
     }
 }
 
+/// What came of a scan.
+pub(super) struct Scan {
+    /// How many devices answer.
+    count: usize,
+    /// The addresses at which what answers is damaged.
+    disturbed: Vec<u8>,
+    restless: bool,
+}
+
+impl Scan {
+    pub(super) fn says(&self) -> String {
+        let found = match self.count {
+            0 => t("No device answers.").to_owned(),
+            1 => t("One device answers.").to_owned(),
+            count => text!("{} devices answer.", count),
+        };
+        let strange = self.disturbed.iter();
+        let strange: Vec<String> = strange.map(ToString::to_string).collect();
+        match strange.is_empty() {
+            true if self.restless => t(RESTLESS).to_owned(),
+            true => found,
+            false => text!(
+                "{} What answers at {} is damaged: a disturbed device, or two with one address.",
+                found,
+                strange.join(", ")
+            ),
+        }
+    }
+}
+
 impl Tally {
     /// A reply, or a part of one, that is not for the session.
     pub fn answered(&mut self, now: Micros, bytes: &[u8]) {
         if !bytes.is_empty() {
-            self.remember(now, bytes, Kind::Beside, String::new());
+            self.remember(now, bytes, Kind::Beside);
         }
     }
 
@@ -64,26 +96,16 @@ impl Tally {
     pub fn sent(&mut self, now: Micros, bytes: &[u8], purpose: Purpose) {
         self.transcript.sent(now, bytes, Some(purpose));
         self.pace.request();
-        self.remember(now, bytes, Kind::Sent, purpose.text().into());
+        self.remember(now, bytes, Kind::Sent(purpose));
     }
 
     /// A scan is over.
     pub fn scanned(&mut self, addresses: &[u8], finder: &Finder) {
         self.devices = addresses.iter().copied().map(Kept::new).collect();
-        let found = match addresses.len() {
-            0 => "No device answers.".to_owned(),
-            1 => "One device answers.".to_owned(),
-            count => format!("{count} devices answer."),
-        };
-        let strange = finder.disturbed().iter();
-        let strange: Vec<String> = strange.map(ToString::to_string).collect();
-        self.scan = Some(match strange.is_empty() {
-            true if finder.is_restless() => RESTLESS.to_owned(),
-            true => found,
-            false => format!(
-                "{found} What answers at {} is damaged: a disturbed device, or two with one address.",
-                strange.join(", ")
-            ),
+        self.scan = Some(Scan {
+            count: addresses.len(),
+            disturbed: finder.disturbed().into(),
+            restless: finder.is_restless(),
         });
         self.touch();
     }

@@ -4,6 +4,9 @@ use super::frame_of;
 use crate::message::{ENTRIES, Entry, LogFilter};
 use encoderscope::{
     decode::{Decoder, Frame},
+    framing::Why,
+    language::t,
+    recording::Purpose,
     session::Micros,
 };
 use std::collections::VecDeque;
@@ -18,7 +21,7 @@ pub(super) enum Kind {
     /// A request of the session.
     Asked,
     /// Bytes that were sent beside reading.
-    Sent,
+    Sent(Purpose),
     /// A frame that came.
     Frame {
         /// Whether it stood where a frame must stand.
@@ -27,22 +30,22 @@ pub(super) enum Kind {
         good: bool,
     },
     /// Bytes that came and are no frame.
-    Skip,
+    Skip(Why),
     /// Bytes that came beside reading; the decoder may know them.
     Beside,
 }
 
 impl Kind {
     const fn is_fault(self) -> bool {
-        matches!(self, Self::Skip | Self::Frame { good: false, .. })
+        matches!(self, Self::Skip(_) | Self::Frame { good: false, .. })
     }
 
     const fn is_beside(self) -> bool {
-        matches!(self, Self::Sent | Self::Beside)
+        matches!(self, Self::Sent(_) | Self::Beside)
     }
 
     const fn is_sent(self) -> bool {
-        matches!(self, Self::Sent | Self::Asked)
+        matches!(self, Self::Sent(_) | Self::Asked)
     }
 }
 
@@ -52,7 +55,6 @@ pub(super) struct Seen {
     pub(super) at: Micros,
     pub(super) bytes: Vec<u8>,
     pub(super) kind: Kind,
-    pub(super) text: String,
 }
 
 #[derive(Debug, Default)]
@@ -98,7 +100,7 @@ fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
     let frame = match seen.kind {
         Kind::Frame { sure, .. } => frame_of(decoder, &seen.bytes, sure),
         Kind::Beside => frame_of(decoder, &seen.bytes, true).filter(Frame::ok),
-        Kind::Asked | Kind::Sent | Kind::Skip => None,
+        Kind::Asked | Kind::Sent(_) | Kind::Skip(_) => None,
     };
     let class = |index: usize| {
         let field = frame
@@ -116,11 +118,21 @@ fn entry(decoder: &Decoder, seen: &Seen, opened: Micros) -> Entry {
             .map(|(index, byte)| (*byte, class(index).into()))
             .collect(),
         ok: match seen.kind {
-            Kind::Asked | Kind::Sent => None,
+            Kind::Asked | Kind::Sent(_) => None,
             Kind::Beside => frame.as_ref().map(Frame::ok),
             Kind::Frame { .. } => Some(frame.as_ref().is_some_and(Frame::ok)),
-            Kind::Skip => Some(false),
+            Kind::Skip(_) => Some(false),
         },
-        text: seen.text.clone(),
+        text: match (seen.kind, &frame) {
+            (Kind::Asked | Kind::Beside, _) => String::new(),
+            (Kind::Sent(purpose), _) => t(purpose.text()).into(),
+            (Kind::Skip(why), _) => why.to_string(),
+            (Kind::Frame { .. }, None) => t("no frame of this format").into(),
+            (Kind::Frame { .. }, Some(frame)) => {
+                let faults = frame.faults();
+                let first = faults.first().map(|fault| fault.kind.to_string());
+                first.unwrap_or_default()
+            }
+        },
     }
 }

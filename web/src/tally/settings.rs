@@ -3,14 +3,18 @@
 use super::{Tally, frame_of, shown};
 use crate::message::{Outcome, Progress, Setting};
 use encoderscope::{
+    language::{in_english, msg, t},
     sequence::{Event, Holds},
     session::Micros,
 };
 
+/// What is said when it is wanted, in the language that is spoken then.
+pub(super) type Words = Box<dyn Fn() -> String>;
+
 impl Tally {
     /// A sequence begins.
     pub fn begin(&mut self, now: Micros, setting: Setting, total: usize) {
-        self.note(now, &format!("{}: begins", setting.name()));
+        self.note(now, &format!("{}: {}", setting.name(), msg("begins")));
         self.prepare(setting, total);
     }
 
@@ -33,9 +37,9 @@ impl Tally {
     }
 
     /// A sequence could not begin.
-    pub fn refuse(&mut self, now: Micros, setting: Setting, why: &str) {
+    pub fn refuse(&mut self, now: Micros, setting: Setting, why: impl Fn() -> String + 'static) {
         self.prepare(setting, 0);
-        self.end(now, Some(false), why.into());
+        self.end(now, Some(false), Box::new(why));
     }
 
     /// What a sequence says.
@@ -56,26 +60,40 @@ impl Tally {
                     Holds::Old => Some(false),
                     Holds::Unknown => None,
                 };
-                let text = match stop {
-                    Some(stop) => format!("Stopped: {stop}; {holds}."),
-                    None => format!("Done: {holds}."),
+                let (stop, holds) = (*stop, *holds);
+                let words = move || match stop {
+                    Some(stop) => format!("{}: {stop}; {holds}.", t("Stopped")),
+                    None => format!("{}: {holds}.", t("Done")),
                 };
-                self.end(now, changed, text);
+                self.end(now, changed, Box::new(words));
             }
         }
     }
 
-    fn end(&mut self, now: Micros, changed: Option<bool>, text: String) {
+    fn end(&mut self, now: Micros, changed: Option<bool>, words: Words) {
         if let Some(progress) = &self.progress {
+            let text = in_english(&words);
             self.note(now, &format!("{}: {text}", progress.setting.name()));
         }
+        self.ending = Some(words);
         // What was read before says nothing about the shaft any more.
         self.places.clear();
         self.trail.jump();
         if let Some(progress) = &mut self.progress {
+            let text = String::new();
             progress.outcome = Some(Outcome { changed, text });
         }
         self.touch();
+    }
+
+    /// The sequence that runs or has run last, with the words for its end.
+    pub(super) fn progress(&self) -> Option<Progress> {
+        let mut progress = self.progress.clone();
+        let outcome = progress.as_mut().and_then(|one| one.outcome.as_mut());
+        if let (Some(outcome), Some(words)) = (outcome, &self.ending) {
+            outcome.text = words();
+        }
+        progress
     }
 
     /// The outcome has been read.

@@ -1,6 +1,7 @@
 //! What happened of late: how the link was, which status bits came and went, what was set.
 
 use super::{Tally, frame_of};
+use crate::message::BIT_CHANGES;
 use encoderscope::{bits, session::Micros};
 use std::collections::VecDeque;
 
@@ -28,12 +29,12 @@ impl Story {
 }
 
 impl Tally {
-    /// Something happened.
+    /// Something happened; said in English.
     pub fn happened(&mut self, now: Micros, text: String) {
         self.story.push(self.transcript.absolute(now), text);
     }
 
-    /// Something happened that the transcript should tell, too.
+    /// Something happened that the transcript should tell, too; said in English.
     pub fn note(&mut self, now: Micros, text: &str) {
         self.transcript.mark(now, text);
         self.happened(now, text.into());
@@ -62,14 +63,15 @@ impl Tally {
             let bits = field.row.bits.iter();
             bits.map(move |bit| (bit.name, bits::bit(raw, bit.place)))
         });
+        let [on, off, moment] = BIT_CHANGES;
         let is = named.zip(&self.seen_bits);
         for (index, ((name, set), seen)) in is.enumerate() {
             let before = self.story.bits.get(index).copied();
             let (was, had) = before.unwrap_or((false, 0.0));
             let what = match (was, set) {
-                (false, true) => "on",
-                (true, false) => "off",
-                (false, false) if *seen > had => "on for a moment",
+                (false, true) => on,
+                (true, false) => off,
+                (false, false) if *seen > had => moment,
                 _ => "",
             };
             if !what.is_empty() {

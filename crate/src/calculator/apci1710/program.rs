@@ -4,6 +4,7 @@ use crate::{
     apci1710::{Channel, Register, divider},
     bits,
     calculator::{Code, quantity::rounded},
+    language::msg,
 };
 use alloc::{format, string::String};
 
@@ -30,7 +31,7 @@ pub(super) struct Program {
 impl Program {
     pub(super) fn code(&self) -> Code {
         Code {
-            title: "Reading the module in C",
+            title: msg("Reading the module in C"),
             file: "apci1710.c",
             text: self.text(),
         }

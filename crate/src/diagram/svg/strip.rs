@@ -5,7 +5,7 @@ use super::{
     labels::{LINE, Label, place},
     pen::Pen,
 };
-use crate::{bits::Span, explain::Note, layout::Class};
+use crate::{bits::Span, explain::Note, language::t, layout::Class};
 use alloc::{format, string::ToString, vec::Vec};
 
 /// Width of a bit.
@@ -75,7 +75,7 @@ fn draw_row(pen: &mut Pen, scene: &Scene<'_>, row: Span) {
     let mut labels = Vec::new();
     for run in &runs {
         let class = run.note.map_or(Class::Framing, |note| note.class);
-        let name = run.note.map_or("", |note| note.name);
+        let name = run.note.map_or("", |note| t(note.name));
         let broken = run.note.is_some_and(|note| note.fault.is_some());
         let (text, class) = match broken {
             true => (format!("✗ {name}"), "es-name es-bad"),
@@ -97,7 +97,7 @@ fn draw_row(pen: &mut Pen, scene: &Scene<'_>, row: Span) {
         let from = x(run.span.start);
         let width = run.span.len as f64 * CELL;
         let class = run.note.map_or(Class::Framing, |note| note.class);
-        let said = |note: &Note| format!("{}: {} {}", note.name, note.doc, note.text);
+        let said = |note: &Note| format!("{}: {} {}", t(note.name), note.doc, note.text);
         pen.open(&run.note.map_or_else(Default::default, said));
         for at in run.span.start..run.span.end() {
             let digit = if scene.frame.bits.bit(at) { "1" } else { "0" };

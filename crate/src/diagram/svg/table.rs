@@ -8,7 +8,9 @@ use super::{
 };
 use crate::{
     explain::{Note, grouped},
+    language::t,
     layout::Resolved,
+    text,
 };
 use alloc::{format, string::String, vec::Vec};
 
@@ -28,7 +30,7 @@ pub(super) fn fields(pen: &mut Pen, scene: &Scene<'_>) {
         .iter()
         .map(|note| {
             let bits = bits(&scene.frame.layout, note, scene);
-            [shortened(note.name), grouped(note.raw), bits]
+            [shortened(t(note.name)), grouped(note.raw), bits]
         })
         .collect();
     let widest = |column: usize| {
@@ -86,29 +88,29 @@ fn bits(layout: &Resolved, note: &Note, scene: &Scene<'_>) -> String {
     };
     let count = field.width;
     let width = count as usize;
+    let bit = t("bit");
     let wire = layout.wire(field, scene.frame.bits);
     if count <= BITS {
-        format!("{wire:0width$b} · {count} bit")
+        format!("{wire:0width$b} · {count} {bit}")
     } else if count <= u64::BITS {
         let digits = width.div_ceil(4);
-        format!("0x{wire:0digits$x} · {count} bit")
+        format!("0x{wire:0digits$x} · {count} {bit}")
     } else {
-        format!("{count} bit")
+        format!("{count} {bit}")
     }
 }
 
 pub(super) fn limits(pen: &mut Pen, timeline: &Timeline) {
     for limit in &timeline.limits {
         pen.rule();
-        let (mark, class) = match limit.holds {
-            true => ("✓", "es-good"),
-            false => ("✗", "es-bad"),
+        let (name, value) = (t(limit.name), &limit.value);
+        let (head, class) = match limit.holds {
+            true => (text!("✓ {}: holds, {}", name, value), "es-good"),
+            false => (text!("✗ {}: fails, {}", name, value), "es-bad"),
         };
-        let verdict = if limit.holds { "holds" } else { "fails" };
         pen.down(LINE);
-        let head = format!("{mark} {}: {verdict}, {}", limit.name, limit.value);
         pen.text(MARGIN, class, &head);
-        let asked = format!("{} ({})", limit.text, limit.source);
+        let asked = format!("{} ({})", limit.text, t(limit.source));
         for line in wrapped(&asked, pen.inner() - 16.0, TEXT) {
             pen.down(LINE);
             pen.text(MARGIN + 16.0, "es-dim", &line);

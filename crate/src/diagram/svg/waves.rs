@@ -6,7 +6,10 @@ use super::{
     pen::Pen,
     strip::{fill, names},
 };
-use crate::diagram::{Fold, Lane, Side, Slot, What};
+use crate::{
+    diagram::{Fold, Lane, Side, Slot, What},
+    language::t,
+};
 use alloc::{string::String, vec::Vec};
 
 /// Room for the names of the lanes.
@@ -23,10 +26,10 @@ pub(super) fn draw(pen: &mut Pen, scene: &Scene<'_>, timeline: &Timeline) {
     let wider = BIT.0 * room / narrow.width().max(1.0);
     let fold = Fold::new(timeline, wider.clamp(BIT.0, BIT.1));
     pen.down(14.0);
-    pen.text(MARGIN, "es-head es-ink", "On the wire");
+    pen.text(MARGIN, "es-head es-ink", t("On the wire"));
     if scene.is_bytes() {
         pen.down(18.0);
-        let order = "each byte: start bit, least significant bit first, stop bit";
+        let order = t("each byte: start bit, least significant bit first, stop bit");
         pen.text(MARGIN, "es-dim", order);
     }
     pen.down(14.0);
@@ -119,7 +122,7 @@ impl Row<'_> {
             level = step.level;
         }
         points.push((self.x(self.to), y(level)));
-        pen.text_at(MARGIN, pen.y + WAVE - 6.0, "es-name es-dim", lane.name);
+        pen.text_at(MARGIN, pen.y + WAVE - 6.0, "es-name es-dim", t(lane.name));
         pen.path(&points, "es-wire");
     }
 
@@ -208,10 +211,10 @@ impl Row<'_> {
     fn name(&self, slot: &Slot, lane: &Lane) -> String {
         let is_byte = self.scene.is_bytes();
         match slot.what {
-            What::Bit(bit) => self.scene.note(bit).map_or("", |note| note.name).into(),
+            What::Bit(bit) => self.scene.note(bit).map_or("", |note| t(note.name)).into(),
             What::Start | What::Stop if is_byte && lane.side == Side::Encoder => String::new(),
-            What::Start | What::Stop | What::Request(_) if is_byte => "request".into(),
-            what => what.name().into(),
+            What::Start | What::Stop | What::Request(_) if is_byte => t("request").into(),
+            what => t(what.name()).into(),
         }
     }
 }

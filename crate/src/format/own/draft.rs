@@ -3,17 +3,14 @@
 //! `RLS serial;poll:31;angle:24:le,crc:8:0x97:xor=0xff` reads: a title, how frames come, and the
 //! fields in transmission order, each a kind and a width with what else is to be known of it.
 
+mod text;
+
 use crate::{
-    bits,
-    layout::{Active, Class, Role},
+    language::msg,
+    layout::{Active, Role},
     profile::{Choice, choice},
 };
-use alloc::{
-    format,
-    string::{String, ToString},
-    vec::Vec,
-};
-use core::{fmt, str::FromStr};
+use alloc::{string::String, vec::Vec};
 
 /// Most fields of a layout.
 pub const MOST_FIELDS: usize = 40;
@@ -90,22 +87,22 @@ impl Kind {
     #[must_use]
     pub const fn doc(self) -> &'static str {
         match self {
-            Self::Turns => "Whole turns.",
-            Self::Angle => "Angle within one turn.",
-            Self::Error => "Says that the position is not valid.",
-            Self::Warning => "Says that something is near its limit; the position is valid.",
-            Self::Valid => "Says that the position is valid.",
-            Self::ZeroDefault => "Says that no zero has been set.",
-            Self::Status => "Status bits.",
-            Self::Temperature => "Temperature in tenths of a degree Celsius.",
-            Self::Speed => "Speed in tenths of a revolution per second.",
-            Self::Count => "A count.",
-            Self::Const => "The same in every frame.",
-            Self::Zeros => "Always 0.",
-            Self::Skip => "Carries nothing that is read.",
-            Self::Crc => "Checksum.",
-            Self::Even => "Makes the number of ones even.",
-            Self::Odd => "Makes the number of ones odd.",
+            Self::Turns => msg("Whole turns."),
+            Self::Angle => msg("Angle within one turn."),
+            Self::Error => msg("Says that the position is not valid."),
+            Self::Warning => msg("Says that something is near its limit; the position is valid."),
+            Self::Valid => msg("Says that the position is valid."),
+            Self::ZeroDefault => msg("Says that no zero has been set."),
+            Self::Status => msg("Status bits."),
+            Self::Temperature => msg("Temperature in tenths of a degree Celsius."),
+            Self::Speed => msg("Speed in tenths of a revolution per second."),
+            Self::Count => msg("A count."),
+            Self::Const => msg("The same in every frame."),
+            Self::Zeros => msg("Always 0."),
+            Self::Skip => msg("Carries nothing that is read."),
+            Self::Crc => msg("Checksum."),
+            Self::Even => msg("Makes the number of ones even."),
+            Self::Odd => msg("Makes the number of ones odd."),
         }
     }
 
@@ -140,36 +137,6 @@ pub enum Framing {
     Stream,
     /// The encoder answers to this byte.
     Poll(u8),
-}
-
-impl fmt::Display for Framing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line => f.write_str("line"),
-            Self::Biss => f.write_str("biss"),
-            Self::Stream => f.write_str("stream"),
-            Self::Poll(byte) => write!(f, "poll:{byte:02x}"),
-        }
-    }
-}
-
-impl FromStr for Framing {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let poll = |digits: &str| u8::from_str_radix(digits.trim_start_matches("0x"), 16);
-        match (text, text.strip_prefix("poll:")) {
-            ("line", _) => Ok(Self::Line),
-            ("biss", _) => Ok(Self::Biss),
-            ("stream", _) => Ok(Self::Stream),
-            (_, Some(digits)) => poll(digits)
-                .map(Self::Poll)
-                .map_err(|_| format!("\"{digits}\" is not a byte in hexadecimal")),
-            _ => Err(format!(
-                "\"{text}\" is no way frames come; known: line biss stream poll:BYTE"
-            )),
-        }
-    }
 }
 
 /// The parameters of a CRC, by the usual names.
@@ -256,211 +223,4 @@ pub struct Written {
     pub framing: Framing,
     /// The fields in transmission order.
     pub fields: Vec<Draft>,
-}
-
-/// Reads a number in decimal, or in hexadecimal behind `0x`.
-fn number(text: &str) -> Result<u64, String> {
-    let parsed = match text.strip_prefix("0x") {
-        Some(digits) => u64::from_str_radix(digits, 16),
-        None => text.parse(),
-    };
-    parsed.map_err(|_| format!("\"{text}\" is not a number"))
-}
-
-fn name(text: &str) -> Result<String, String> {
-    let text = text.trim();
-    match text.chars().count() {
-        0 => Err("a name is empty".to_string()),
-        1..=LONGEST_NAME => Ok(text.to_string()),
-        long => Err(format!(
-            "a name of {long} letters is longer than {LONGEST_NAME}"
-        )),
-    }
-}
-
-impl FromStr for Written {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let mut parts = text.splitn(3, ';');
-        let (Some(title), Some(framing), Some(fields)) = (parts.next(), parts.next(), parts.next())
-        else {
-            return Err("a layout is TITLE;line|biss|stream|poll:BYTE;FIELD,FIELD,…".to_string());
-        };
-        let title = name(title)?;
-        let framing = framing.trim().parse()?;
-        let fields: Vec<Draft> = fields
-            .split(',')
-            .enumerate()
-            .take(MOST_FIELDS + 1)
-            .map(|(index, field)| {
-                let field = field.trim();
-                field
-                    .parse()
-                    .map_err(|why| format!("field {} ({field}): {why}", index + 1))
-            })
-            .collect::<Result<_, String>>()?;
-        if fields.len() > MOST_FIELDS {
-            return Err(format!("more than {MOST_FIELDS} fields"));
-        }
-        Ok(Self {
-            title,
-            framing,
-            fields,
-        })
-    }
-}
-
-impl FromStr for Draft {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let mut parts = text.split(':');
-        let word = parts.next().unwrap_or_default();
-        let kind = Kind::of_word(word)
-            .ok_or_else(|| format!("\"{word}\" is no kind; known: {}", Kind::WORDS.join(" ")))?;
-        let (least, most) = kind.widths();
-        let width = match parts.next() {
-            Some(width) => width
-                .parse()
-                .map_err(|_| format!("\"{width}\" is not a number of bits"))?,
-            None => least,
-        };
-        if !(least..=most).contains(&width) {
-            return Err(format!("{width} bits are not in {least}…{most} of {word}"));
-        }
-        let mut draft = Self::new(kind, width);
-        for option in parts {
-            draft.set(option)?;
-        }
-        let fits = |value: u64| value <= bits::mask(width as usize);
-        let rule = draft.crc;
-        if [draft.value, rule.polynomial, rule.init, rule.xorout]
-            .into_iter()
-            .any(|value| !fits(value))
-        {
-            return Err(format!("a value has more than {width} bits"));
-        }
-        if draft.bits.len() > width as usize {
-            return Err(format!(
-                "{} names are not for {width} bits",
-                draft.bits.len()
-            ));
-        }
-        if kind == Kind::Crc && draft.crc.polynomial == 0 {
-            return Err("a crc needs its polynomial, for example crc:8:0x97".to_string());
-        }
-        Ok(draft)
-    }
-}
-
-impl Draft {
-    fn set(&mut self, option: &str) -> Result<(), String> {
-        let known = match option.split_once('=') {
-            Some(("name", value)) => {
-                self.name = Some(name(value)?);
-                true
-            }
-            Some(("from", value)) if self.kind.role().class() == Class::Check => {
-                self.from = Some(name(value)?);
-                true
-            }
-            Some(("to", value)) if self.kind.role().class() == Class::Check => {
-                self.to = Some(name(value)?);
-                true
-            }
-            Some(("init", value)) if self.kind == Kind::Crc => {
-                self.crc.init = number(value)?;
-                true
-            }
-            Some(("xor", value)) if self.kind == Kind::Crc => {
-                self.crc.xorout = number(value)?;
-                true
-            }
-            Some(("bits", value)) if self.kind == Kind::Status => {
-                self.bits = value
-                    .split('|')
-                    .map(|bit| bit.chars().take(LONGEST_NAME).collect::<String>())
-                    .map(|bit| bit.trim().to_string())
-                    .collect();
-                true
-            }
-            None if self.kind == Kind::Crc && option == "reflected" => {
-                self.crc.reflected = true;
-                true
-            }
-            None if option == "low" => {
-                self.active = Active::Low;
-                true
-            }
-            None if option == "le" => {
-                self.little_endian = true;
-                true
-            }
-            None if option == "gray" => {
-                self.gray = true;
-                true
-            }
-            None if self.kind == Kind::Crc => {
-                self.crc.polynomial = number(option)?;
-                true
-            }
-            None if self.kind == Kind::Const => {
-                self.value = number(option)?;
-                true
-            }
-            _ => false,
-        };
-        match known {
-            true => Ok(()),
-            false => Err(format!(
-                "\"{option}\" says nothing about {}",
-                self.kind.name()
-            )),
-        }
-    }
-}
-
-impl fmt::Display for Written {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{};{};", self.title, self.framing)?;
-        for (index, field) in self.fields.iter().enumerate() {
-            write!(f, "{}{field}", if index > 0 { "," } else { "" })?;
-        }
-        Ok(())
-    }
-}
-
-impl fmt::Display for Draft {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}", self.kind.name(), self.width)?;
-        match self.kind {
-            Kind::Crc => write!(f, ":0x{:02x}", self.crc.polynomial)?,
-            Kind::Const => write!(f, ":0x{:x}", self.value)?,
-            _ => {}
-        }
-        let flags = [
-            ("low", self.active == Active::Low),
-            ("le", self.little_endian),
-            ("gray", self.gray),
-            ("reflected", self.crc.reflected),
-        ];
-        for (word, _) in flags.iter().filter(|(_, is_set)| *is_set) {
-            write!(f, ":{word}")?;
-        }
-        for (word, value) in [("init", self.crc.init), ("xor", self.crc.xorout)] {
-            if value != 0 {
-                write!(f, ":{word}=0x{value:x}")?;
-            }
-        }
-        if !self.bits.is_empty() {
-            write!(f, ":bits={}", self.bits.join("|"))?;
-        }
-        for (word, value) in [("from", &self.from), ("to", &self.to), ("name", &self.name)] {
-            if let Some(value) = value {
-                write!(f, ":{word}={value}")?;
-            }
-        }
-        Ok(())
-    }
 }

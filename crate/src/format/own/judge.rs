@@ -1,9 +1,8 @@
 //! What a user's layout cannot be.
 
 use super::{Draft, Framing, Kind, SPEC, Written};
-use crate::{layout::Class, sequence};
+use crate::{language::t, layout::Class, sequence, text};
 use alloc::{
-    format,
     string::{String, ToString},
     vec::Vec,
 };
@@ -21,7 +20,7 @@ pub(super) fn judge(written: &Written, names: &[String]) -> Result<(), String> {
         mine.map(|field| field.width).sum()
     };
     if total > LONGEST {
-        return Err(format!("{total} bits are more than {LONGEST}"));
+        return Err(text!("{} bits are more than {}", total, LONGEST));
     }
     for kind in [Kind::Angle, Kind::Turns] {
         let mut called = fields
@@ -31,24 +30,27 @@ pub(super) fn judge(written: &Written, names: &[String]) -> Result<(), String> {
         let first = called.next().map(|(_, name)| name);
         if let Some((_, other)) = called.find(|(_, name)| Some(*name) != first) {
             let first = first.map_or("", String::as_str);
-            return Err(format!(
-                "the parts of the {} are called {first} and {other}: parts of one number have one name",
-                kind.name()
+            return Err(text!(
+                "the parts of the {} are called {} and {}: parts of one number have one name",
+                kind.name(),
+                first,
+                other
             ));
         }
     }
     if sum(Kind::Angle) == 0 {
-        return Err("there is no angle".to_string());
+        return Err(t("there is no angle").to_string());
     }
     if let Framing::Poll(byte) = written.framing
         && let Some(danger) = sequence::danger(&SPEC.default, &[byte])
     {
-        return Err(format!("{danger}: it is not sent by polling"));
+        return Err(text!("{}: it is not sent by polling", danger));
     }
     let serial = matches!(written.framing, Framing::Stream | Framing::Poll(_));
     if serial && !total.is_multiple_of(8) {
-        return Err(format!(
-            "{total} bits are no whole bytes, which a serial line sends"
+        return Err(text!(
+            "{} bits are no whole bytes, which a serial line sends",
+            total
         ));
     }
     let same = |one: &Draft, other: &Draft| {
@@ -59,21 +61,23 @@ pub(super) fn judge(written: &Written, names: &[String]) -> Result<(), String> {
         let earlier = fields.iter().zip(names).take(index);
         let mut mine = earlier.filter(|(_, known)| *known == name);
         if mine.any(|(other, _)| !same(field, other)) {
-            return Err(format!("two fields are called {name}"));
+            return Err(text!("two fields are called {}", name));
         }
         let parts = fields.iter().zip(names).filter(|(_, known)| *known == name);
         let bits: u32 = parts.map(|(part, _)| part.width).sum();
         let (_, most) = field.kind.widths();
         if bits > most {
-            return Err(format!(
-                "{bits} bits of {} exceed {most}",
-                field.kind.name()
+            return Err(text!(
+                "{} bits of {} exceed {}",
+                bits,
+                field.kind.name(),
+                most
             ));
         }
         judge_check(written, names, index)?;
     }
     if is_circle(written, names)? {
-        return Err("checks cover one another".to_string());
+        return Err(t("checks cover one another").to_string());
     }
     judge_little_endian(fields)?;
     judge_gray(fields, names)
@@ -86,12 +90,12 @@ fn judge_little_endian(fields: &[Draft]) -> Result<(), String> {
         for field in run.iter().filter(|field| field.little_endian) {
             let alone = bits % 8 == 0 && field.width.is_multiple_of(8);
             if field.kind.role().class() == Class::Check && !alone {
-                return Err("a check that is le has whole bytes of its own".to_string());
+                return Err(t("a check that is le has whole bytes of its own").to_string());
             }
             bits += field.width;
         }
         if !bits.is_multiple_of(8) {
-            return Err(format!("{bits} bits of le side by side are no whole bytes"));
+            return Err(text!("{} bits of le side by side are no whole bytes", bits));
         }
     }
     Ok(())
@@ -103,26 +107,26 @@ fn judge_gray(fields: &[Draft], names: &[String]) -> Result<(), String> {
         .chunk_by(|one, other| one.gray == other.gray)
         .filter(|run| run.first().is_some_and(|field| field.gray));
     if runs.count() > 1 {
-        return Err("gray fields must stand side by side: they are one word".to_string());
+        return Err(t("gray fields must stand side by side: they are one word").to_string());
     }
     if fields.iter().any(|field| field.gray && field.little_endian) {
-        return Err("a field is either gray or le".to_string());
+        return Err(t("a field is either gray or le").to_string());
     }
     let gray = fields.iter().filter(|field| field.gray);
     if gray.map(|field| field.width).sum::<u32>() > 64 {
-        return Err("a gray word has at most 64 bits".to_string());
+        return Err(t("a gray word has at most 64 bits").to_string());
     }
     let parts = |name: &String| names.iter().filter(|known| *known == name).count();
     let mut words = fields.iter().zip(names).filter(|(field, _)| field.gray);
     if let Some((_, name)) = words.find(|(_, name)| parts(name) > 1) {
-        return Err(format!("{name} is gray and comes in several parts"));
+        return Err(text!("{} is gray and comes in several parts", name));
     }
     Ok(())
 }
 
 /// The fields that a check covers; of those in parts from the first part to the last.
 fn covered(field: &Draft, names: &[String], index: usize) -> Result<Range<usize>, String> {
-    let known = |name: &String| format!("no field is called \"{name}\"");
+    let known = |name: &String| text!("no field is called \"{}\"", name);
     let first = match &field.from {
         Some(from) => names
             .iter()
@@ -169,13 +173,13 @@ fn judge_check(written: &Written, names: &[String], index: usize) -> Result<(), 
         return Ok(());
     };
     if field.gray {
-        return Err(format!("the check {} cannot be gray", field.kind.name()));
+        return Err(text!("the check {} cannot be gray", field.kind.name()));
     }
     let span = covered(field, names, index)?;
     let fields = match index {
         0 if field.to.is_none() => &[],
         _ if span.contains(&index) => {
-            return Err(format!("the check {} covers itself", field.kind.name()));
+            return Err(text!("the check {} covers itself", field.kind.name()));
         }
         _ => written.fields.get(span).unwrap_or_default(),
     };
@@ -183,12 +187,13 @@ fn judge_check(written: &Written, names: &[String], index: usize) -> Result<(), 
     let rule = field.crc;
     let whole = covered.is_multiple_of(8);
     if field.kind == Kind::Crc && !whole && (rule.reflected || rule.init != 0) {
-        return Err(format!(
-            "a crc that is reflected or does not start from 0 covers whole bytes, not {covered} bits"
+        return Err(text!(
+            "a crc that is reflected or does not start from 0 covers whole bytes, not {} bits",
+            covered
         ));
     }
     match covered {
-        0 => Err("a check covers nothing".to_string()),
+        0 => Err(t("a check covers nothing").to_string()),
         _ => Ok(()),
     }
 }

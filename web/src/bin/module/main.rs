@@ -243,7 +243,7 @@ pub fn serve(page: &Peer) {
     let engine = Engine::new(post, hand);
     let listen = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
         if let Some(both) = event.data().dyn_ref::<Array>() {
-            let file = Some(both.get(1)).filter(JsValue::is_object);
+            let file = Some(both.get(1)).filter(|with| !with.is_undefined());
             if let Ok(message) = serde_wasm_bindgen::from_value::<Wish>(both.get(0)) {
                 engine.grant(message, file);
             }
@@ -271,7 +271,7 @@ pub fn serve_desk(page: &Peer) {
     let listen = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
         let both: Array = event.data().unchecked_into();
         if let Ok(message) = serde_wasm_bindgen::from_value::<ToDesk>(both.get(0)) {
-            let file = Some(both.get(1)).filter(JsValue::is_object);
+            let file = Some(both.get(1)).filter(|with| !with.is_undefined());
             desk.handle(message, file);
         }
     });

@@ -1,23 +1,22 @@
-//! The shell: areas, profile, theme, and the state that they share.
+//! The areas of the page, the profile, and the state that they share.
+
+mod link;
+mod shell;
+
+pub(crate) use shell::{sizes, summary};
 
 use crate::{
-    Workers, adapters,
-    connection::Connection,
-    console::Console,
-    parts::{self, coming, later},
-    plot::Feed,
-    ports::Obstacle,
-    theme::ThemeSwitch,
+    Workers, adapters, connection::Connection, language::Spoken, parts, plot::Feed, ports::Obstacle,
 };
-use encoderscope::{format::Format, profile::Profile};
+use encoderscope::{format::Format, language::t, profile::Profile};
 use encoderscope_web::{
     link::{Fragment, query},
-    message::{PortId, Snapshot, ToEngine, Wish},
+    message::{self, PortId, Snapshot, ToEngine, Wish},
     serial,
 };
 use js_sys::Array;
 use leptos::{ev, prelude::*};
-use std::time::Duration;
+use std::{any::Any, time::Duration};
 use wasm_bindgen::JsValue;
 
 /// What the dial shows.
@@ -54,12 +53,12 @@ impl Area {
         }
     }
 
-    const fn title(self) -> &'static str {
+    fn title(self) -> &'static str {
         match self {
-            Self::Console => "Console",
-            Self::Decode => "Decode",
-            Self::Explain => "Explain",
-            Self::Reference => "Reference",
+            Self::Console => t("Console"),
+            Self::Decode => t("Decode"),
+            Self::Explain => t("Explain"),
+            Self::Reference => t("Reference"),
         }
     }
 }
@@ -110,6 +109,10 @@ pub(crate) struct App {
     pub(crate) just_plugged: RwSignal<bool>,
     /// A recording runs; a new version of the page must not end it.
     pub(crate) recording: RwSignal<bool>,
+    /// The language of it all.
+    pub(crate) spoken: Spoken,
+    /// All of them are gone with this.
+    views: StoredValue<Option<Box<dyn Any>>, LocalStorage>,
     connection: StoredValue<Connection, LocalStorage>,
 }
 
@@ -118,8 +121,9 @@ impl App {
         let snapshot = RwSignal::new(Snapshot::default());
         let feed = Feed::new();
         let broken = RwSignal::new(false);
+        let spoken = Spoken::new(&workers);
         let workers = StoredValue::new_local(workers);
-        let connection = Connection::new(workers, snapshot, feed, broken);
+        let connection = Connection::new(workers, spoken.texts, snapshot, feed, broken);
         Self {
             area: RwSignal::new(Area::Console),
             profile: RwSignal::new(Format::T485.default_profile()),
@@ -141,6 +145,8 @@ impl App {
             broken,
             just_plugged: RwSignal::new(false),
             recording: RwSignal::new(false),
+            spoken,
+            views: StoredValue::new_local(None),
             connection: StoredValue::new_local(connection),
         }
     }
@@ -156,16 +162,26 @@ impl App {
         })
     }
 
-    /// The area that is shown takes part in links from now on.
+    /// The area that is shown takes part in links from now on; where it is made anew, in another
+    /// language, it has followed its link already.
     pub(crate) fn settle(self, place: Place) {
+        let before = self.place.get_untracked();
         self.place.set(Some(place));
-        place.follow.run(self.link.get_untracked());
+        if before.is_none() {
+            place.follow.run(self.link.get_untracked());
+        }
     }
 
     /// Speaks to the engine.
     pub(crate) fn send(&self, message: &ToEngine) {
         self.connection
             .with_value(|connection| connection.send(message));
+    }
+
+    /// Tells the engine the texts of another language.
+    pub(crate) fn tell(&self, texts: &JsValue) {
+        self.connection
+            .with_value(|connection| connection.post(message::speak(texts)));
     }
 
     /// Tells the engine what a part of the page wishes.
@@ -268,73 +284,6 @@ impl App {
         }
     }
 
-    /// Takes over the profile of a link, where there is one.
-    pub(crate) fn follow_profile_of(self, link: &Fragment) {
-        match link.profile() {
-            Some(Ok(profile)) => self.change_profile(profile),
-            Some(Err(error)) => self
-                .link_fault
-                .set(Some(format!("The link is not right: {error}."))),
-            None => {}
-        }
-    }
-
-    fn follow_link(self, text: &str) {
-        let fragment = Fragment::parse(text);
-        let area = Area::ALL
-            .into_iter()
-            .find(|area| area.name() == fragment.area);
-        let area = area.unwrap_or(Area::Console);
-        self.link.set(fragment.clone());
-        let moves = self.area.get_untracked() != area;
-        if moves {
-            self.place.set(None);
-            self.area.set(area);
-        }
-        match (area, self.place.get_untracked()) {
-            (Area::Console, _) if fragment.parameters.is_empty() => {}
-            (Area::Console, _) => self.follow_console(fragment),
-            (_, Some(place)) if !moves => place.follow.run(fragment),
-            // The area follows it when its code is there.
-            _ => {}
-        }
-    }
-
-    /// Reading a profile takes more code than the first view has.
-    fn follow_console(self, link: Fragment) {
-        self.reads_link.set(true);
-        leptos::task::spawn_local(async move {
-            if parts::profile_of(self, link).await.is_err() {
-                self.link_fault
-                    .set(Some("The link cannot be read without the network.".into()));
-            }
-            self.reads_link.set(false);
-        });
-    }
-
-    /// Whether a link is the one that was followed last.
-    pub(crate) fn is_here(self, link: &Fragment) -> bool {
-        self.link.with_untracked(|last| last == link)
-    }
-
-    /// The fragment that leads back here; none while the code of the area is on its way.
-    fn fragment(&self) -> Option<String> {
-        match self.area.get() {
-            Area::Console if self.reads_link.get() => None,
-            Area::Console => Some(format!("#/console?{}", query(&self.profile.get()))),
-            _ => self.place.get().map(|place| place.fragment.get()),
-        }
-    }
-
-    /// The whole address that leads back here.
-    pub(crate) fn address(&self) -> String {
-        let address = window().location().href().unwrap_or_default();
-        match self.fragment() {
-            Some(fragment) => address.split('#').next().unwrap_or_default().to_owned() + &fragment,
-            None => address,
-        }
-    }
-
     /// Lets the engine and the ports have their say; `bare` is an address that names no encoder.
     fn begin(self, bare: bool) {
         let app = self;
@@ -371,22 +320,18 @@ impl App {
     }
 }
 
-/// The whole page.
-pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
+/// Starts the page.
+pub(crate) fn start(workers: Workers) {
     let app = App::new(workers);
     provide_context(app);
     let bare = Fragment::parse(&location_hash()).parameters.is_empty();
     app.follow_link(&location_hash());
     // The address bar may have been brought up to date since the link was followed.
-    let hash = window_event_listener(ev::hashchange, move |event| {
+    window_event_listener(ev::hashchange, move |event| {
         let address = event.new_url();
         app.follow_link(address.find('#').map_or("", |at| &address[at..]));
     });
-    let hide = window_event_listener_untyped("pagehide", move |_| app.disconnect());
-    on_cleanup(move || {
-        hash.remove();
-        hide.remove();
-    });
+    window_event_listener_untyped("pagehide", move |_| app.disconnect());
     Effect::new(move || {
         if let (Some(fragment), Ok(history)) = (app.fragment(), window().history()) {
             // Where it fails the link in the address bar is only out of date.
@@ -397,47 +342,7 @@ pub(crate) fn app(workers: Workers) -> impl IntoView + use<> {
     let owner = app.owner.get_value();
     after_picture(move || owner.with(|| app.begin(bare)));
 
-    view! {
-        <header class="bar">
-            <a class="brand" href="#/console">
-                <svg viewBox="0 0 24 24" aria-hidden="true">
-                    <circle cx="12" cy="12" r="10" />
-                    <line x1="12" y1="12" x2="17" y2="7" />
-                    <circle class="dot" cx="12" cy="12" r="2" />
-                </svg>
-                "Encoderscope"
-            </a>
-            <nav aria-label="Areas">
-                {Area::ALL
-                    .map(|area| {
-                        view! {
-                            <a
-                                href=format!("#/{}", area.name())
-                                aria-current=move || (app.area.get() == area).then_some("page")
-                            >
-                                {area.title()}
-                            </a>
-                        }
-                    })
-                    .into_view()}
-            </nav>
-            <span class="pill" data-testid="profile" data-value=move || query(&app.profile.get())>
-                {move || summary(&app.profile.get())}
-            </span>
-            <ThemeSwitch />
-        </header>
-        <main>
-            {move || {
-                app.link_fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })
-            }}
-            {move || match app.area.get() {
-                Area::Console => view! { <Console /> }.into_any(),
-                Area::Decode => later(parts::decode, coming).into_any(),
-                Area::Explain => later(parts::explain, coming).into_any(),
-                Area::Reference => later(parts::reference, coming).into_any(),
-            }}
-        </main>
-    }
+    app.show();
 }
 
 /// Does something once the next picture of the page has been drawn.
@@ -464,15 +369,4 @@ fn make_next(made: RwSignal<usize>, all: usize) {
 
 fn location_hash() -> String {
     window().location().hash().unwrap_or_default()
-}
-
-pub(crate) fn summary(profile: &Profile) -> impl IntoView + use<> {
-    let mut text = format!("{} bit", profile.angle_bits);
-    if profile.turns_bits > 0 {
-        text += &format!(" + {} turns", profile.turns_bits);
-    }
-    if profile.is_serial() {
-        text += &format!(" · {} Mbaud", f64::from(profile.baud) / 1e6);
-    }
-    view! { <b>{profile.title()}</b> " " {text} }
 }

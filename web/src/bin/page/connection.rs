@@ -4,7 +4,7 @@
 use crate::{Workers, app::after_picture, plot::Feed};
 use encoderscope_web::{
     browser::Peer,
-    message::{FromEngine, Shown, Snapshot, ToEngine},
+    message::{self, FromEngine, Shown, Snapshot, ToEngine},
     serial,
 };
 use js_sys::Array;
@@ -22,6 +22,7 @@ const UNANSWERED: u32 = 10;
 pub(crate) struct Connection {
     inner: Rc<RefCell<Inner>>,
     workers: StoredValue<Workers, LocalStorage>,
+    texts: StoredValue<JsValue, LocalStorage>,
     snapshot: RwSignal<Snapshot>,
     feed: Feed,
     parcels: Rc<RefCell<Parcels>>,
@@ -55,9 +56,11 @@ enum Seat {
 impl Connection {
     /// Starts the engine once the page has been drawn, in a worker where there are workers;
     /// snapshots go into `snapshot`, the rest of what it says into `feed`. A worker that breaks
-    /// down is replaced by an engine on the page, and `broken` is set.
+    /// down is replaced by an engine on the page, and `broken` is set. The engine is told the texts of
+    /// the language before anything else.
     pub(crate) fn new(
         workers: StoredValue<Workers, LocalStorage>,
+        texts: StoredValue<JsValue, LocalStorage>,
         snapshot: RwSignal<Snapshot>,
         feed: Feed,
         broken: RwSignal<bool>,
@@ -70,6 +73,7 @@ impl Connection {
                 unanswered: 0,
             })),
             workers,
+            texts,
             snapshot,
             feed,
             parcels: Rc::default(),
@@ -187,7 +191,8 @@ impl Connection {
 
     fn ready(&self) {
         let waiting = self.inner.borrow_mut().waiting.take();
-        for message in waiting.unwrap_or_default() {
+        let language = message::speak(&self.texts.get_value());
+        for message in [language].into_iter().chain(waiting.unwrap_or_default()) {
             self.post(message);
         }
     }

@@ -15,6 +15,7 @@ use crate::{
     standstill::Standstill,
     zero_wire::ZeroWire,
 };
+use encoderscope::language::t;
 use encoderscope_web::{message::Link, serial};
 use leptos::prelude::*;
 
@@ -59,13 +60,16 @@ pub(crate) fn Live() -> impl IntoView {
         <LinkPanel />
         <div class="stage">
             <SearchPanel />
-            <Angle />
+            <div class="centre">
+                <Angle />
+                <DevicesPanel />
+                <PlotPanel />
+            </div>
             <div class="side">
                 <Status />
                 {move || lives.get().then(|| view! { <SettingPanel /> <ZeroWire /> })}
+                <Standstill />
             </div>
-            <DevicesPanel />
-            <div class="plots"><PlotPanel /><Standstill /></div>
             <Frames />
             <RecordingsPanel />
         </div>
@@ -77,8 +81,8 @@ pub(crate) fn ConnectButton() -> impl IntoView {
     let app = expect_context::<App>();
     let absent = serial::available().err();
     let label = move || match app.snapshot.with(|snapshot| snapshot.link.clone()) {
-        Link::Lost | Link::Refused { .. } if app.source.get() == Source::Port => "Reconnect",
-        _ => "Connect an encoder",
+        Link::Lost | Link::Refused { .. } if app.source.get() == Source::Port => t("Reconnect"),
+        _ => t("Connect an encoder"),
     };
     view! {
         <button class="primary" data-testid="connect" disabled=move || absent.is_some() || app.reads_link.get() on:click=move |_| app.connect()>
@@ -92,7 +96,7 @@ pub(crate) fn DemoButton() -> impl IntoView {
     let app = expect_context::<App>();
     view! {
         <button data-testid="demo" disabled=move || app.reads_link.get() on:click=move |_| app.demo(Source::Demo)>
-            "Try the demo"
+            {t("Try the demo")}
         </button>
     }
 }
@@ -119,20 +123,22 @@ fn Welcome() -> impl IntoView {
     let opened = RwSignal::new(false);
     view! {
         <section class="panel welcome">
-            <h1>"Reads absolute encoders in the browser"</h1>
+            <h1>{t("Reads absolute encoders in the browser")}</h1>
             <p class="lead">
-                "T485, RS485, RS422, BUS, PERIOD and ASI live over a USB adapter; SSI and BiSS-C "
-                "from a pasted dump. No installation, and nothing leaves this device."
+                {t(
+                    "T485, RS485, RS422, BUS, PERIOD and ASI live over a USB adapter; SSI and BiSS-C from a \
+                     pasted dump. No installation, and nothing leaves this device.",
+                )}
             </p>
             <div class="doors">
                 <ConnectButton />
                 <DemoButton />
                 {serial::available().is_ok().then(|| view! { <FindButton /> })}
-                <a class="button" href="#/decode">"Paste a dump"</a>
+                <a class="button" href="#/decode">{t("Paste a dump")}</a>
             </div>
             <ObstacleNote />
             <details on:toggle=move |_| opened.set(true)>
-                <summary>"Encoder settings"</summary>
+                <summary>{t("Encoder settings")}</summary>
                 {move || opened.get().then(|| later(parts::settings, coming))}
             </details>
         </section>

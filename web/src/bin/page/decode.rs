@@ -2,6 +2,7 @@
 
 mod candidates;
 mod chart;
+mod examples;
 mod figures;
 mod own;
 mod paste;
@@ -17,11 +18,12 @@ use crate::{
 };
 use candidates::{Candidates, Nearby};
 use chart::AngleChart;
-use encoderscope::{explain::grouped, format::Format};
+use encoderscope::{explain::grouped, format::Format, language::t, text};
 use encoderscope_web::{
     link::{self, Fragment},
     message::{Explained, ToDesk},
 };
+use examples::Examples;
 use figures::Figures;
 use leptos::prelude::*;
 use own::OwnEditor;
@@ -31,9 +33,9 @@ use report::Report;
 use rows::Rows;
 use share::Share;
 
-fn plural(count: f64, what: &str) -> String {
-    let ending = if count == 1.0 { "" } else { "s" };
-    format!("{} {what}{ending}", grouped(count as u64))
+/// A count, with thin spaces between thousands.
+fn count(count: f64) -> String {
+    grouped(count as u64)
 }
 
 #[component]
@@ -81,10 +83,10 @@ pub(crate) fn Decode() -> impl IntoView {
     view! {
         <div class="decode">
             <section class="panel paste">
-                <h2>"What came over the wire"</h2>
+                <h2>{t("What came over the wire")}</h2>
                 <Paste />
                 <Candidates />
-                <h2>"How to read it"</h2>
+                <h2>{t("How to read it")}</h2>
                 <div on:change=move |_| desk.choice.set(Choice::User)>
                     <ProfileEditor offer=Offer::All />
                 </div>
@@ -94,24 +96,17 @@ pub(crate) fn Decode() -> impl IntoView {
             </section>
             <div class="results">
                 {move || match empty.get() {
-                    true => view! {
-                        <section class="panel">
-                            <h2>"Frames"</h2>
-                            <p class="hint">
-                                "Bytes in any writing: hexadecimal or decimal, hexdump and xxd, C arrays, terminal logs with times and directions, tables of Saleae and sigrok, strings of 0 and 1. Files too: text, binary, VCD and CSV of a logic analyser. Nothing leaves this page."
-                            </p>
-                        </section>
-                    }.into_any(),
+                    true => view! { <Examples /> }.into_any(),
                     false => view! { <Results shown=shown /> }.into_any(),
                 }}
                 {move || desk.explained.get().filter(|_| !empty.get()).map(|explained| view! {
                     <section class="panel detail">
                         <h2>
-                            {format!("Row {}", grouped(explained.index as u64 + 1))}
-                            {explained.answers.map(|start| view! { <span>{format!("answers the request at {start}")}</span> })}
+                            {text!("Row {}", grouped(explained.index as u64 + 1))}
+                            {explained.answers.map(|start| view! { <span>{text!("answers the request at {}", start)}</span> })}
                         </h2>
                         {explain_link(app, &explained).map(|link| view! {
-                            <p><a href=link data-testid="to-explain">"Open in the explainer"</a></p>
+                            <p><a href=link data-testid="to-explain">{t("Open in the explainer")}</a></p>
                         })}
                         {explained.says.iter().map(|text| view! { <p class="fault">{text.clone()}</p> }).collect_view()}
                         <FrameView frame=explained />

@@ -4,9 +4,41 @@ use crate::app::App;
 use encoderscope::{
     bits,
     format::{Format, STATUS},
+    language::{msg, number, t},
+    text,
 };
 use encoderscope_web::message::{Knobs, Wish};
 use leptos::prelude::*;
+
+/// How the built-in encoder is set; a new one turns by itself and is well.
+#[derive(Clone, Copy)]
+struct Demo {
+    /// Revolutions per second, once somebody turns it by hand.
+    speed: RwSignal<Option<f64>>,
+    knobs: RwSignal<Knobs>,
+}
+
+impl Demo {
+    fn of(app: App) -> Self {
+        app.keep(|| {
+            let demo = Self {
+                speed: RwSignal::new(None),
+                knobs: RwSignal::new(Knobs::default()),
+            };
+            Effect::new(move || {
+                app.running.track();
+                demo.speed.set(None);
+                demo.set(app, &|knobs| *knobs = Knobs::default());
+            });
+            demo
+        })
+    }
+
+    fn set(self, app: App, change: &dyn Fn(&mut Knobs)) {
+        self.knobs.update(|knobs| change(knobs));
+        app.wish(&Wish::Knobs(self.knobs.get_untracked()));
+    }
+}
 
 #[component]
 pub(crate) fn DemoKnobs() -> impl IntoView {
@@ -14,7 +46,7 @@ pub(crate) fn DemoKnobs() -> impl IntoView {
     view! {
         <DemoShaft />
         <details class="knobs">
-            <summary>"Demo status and faults"</summary>
+            <summary>{t("Demo status and faults")}</summary>
             <Reports app=app />
         </details>
     }
@@ -24,19 +56,19 @@ pub(crate) fn DemoKnobs() -> impl IntoView {
 #[component]
 fn DemoShaft() -> impl IntoView {
     let app = expect_context::<App>();
-    let speed = RwSignal::new(None::<f64>);
+    let speed = Demo::of(app).speed;
     let turn = move |value: f64| {
         speed.set(Some(value));
         app.wish(&Wish::Turn(value));
     };
     let text = move || match speed.get() {
-        None => "swinging".to_owned(),
-        Some(0.0) => "standing still".to_owned(),
-        Some(speed) => format!("{speed:+.1} rev/s"),
+        None => t("swinging").to_owned(),
+        Some(0.0) => t("standing still").to_owned(),
+        Some(speed) => text!("{} rev/s", number(format_args!("{speed:+.1}"))),
     };
     view! {
         <label class="shaft">
-            <span>"Demo shaft " <small>{text}</small></span>
+            <span>{t("Demo shaft")} " " <small>{text}</small></span>
             <input
                 type="range"
                 min="-2"
@@ -47,22 +79,15 @@ fn DemoShaft() -> impl IntoView {
                 on:input:target=move |event| turn(event.target().value().parse().unwrap_or(0.0))
             />
         </label>
-        <button data-testid="demo-hold" on:click=move |_| turn(0.0)>"Hold the shaft"</button>
+        <button data-testid="demo-hold" on:click=move |_| turn(0.0)>{t("Hold the shaft")}</button>
     }
 }
 
 #[component]
 fn Reports(app: App) -> impl IntoView {
-    let knobs = RwSignal::new(Knobs::default());
-    let set = move |change: &dyn Fn(&mut Knobs)| {
-        knobs.update(|knobs| change(knobs));
-        app.wish(&Wish::Knobs(knobs.get_untracked()));
-    };
-    // A profile that changes makes another encoder, which is well.
-    Effect::new(move || {
-        app.profile.track();
-        set(&|knobs| *knobs = Knobs::default());
-    });
+    let demo = Demo::of(app);
+    let knobs = demo.knobs;
+    let set = move |change: &dyn Fn(&mut Knobs)| demo.set(app, change);
     let carries_status = move || !matches!(app.profile.get().format, Format::Asi1 | Format::Asi4);
     let bit = move |place: u32| bits::low_byte(bits::placed(1, place));
     let lamps = move || {
@@ -80,30 +105,30 @@ fn Reports(app: App) -> impl IntoView {
     };
     view! {
         {move || carries_status().then(lamps)}
-        <Check name="error" on=Signal::derive(move || knobs.get().error) change=move |on| set(&|knobs| knobs.error = on) />
-        <Check name="warning" on=Signal::derive(move || knobs.get().warning) change=move |on| set(&|knobs| knobs.warning = on) />
-        <Check name="silent" on=Signal::derive(move || knobs.get().silent) change=move |on| set(&|knobs| knobs.silent = on) />
-        <Check name="echo" on=Signal::derive(move || knobs.get().echo) change=move |on| set(&|knobs| knobs.echo = on) />
+        <Check name=msg("error") on=Signal::derive(move || knobs.get().error) change=move |on| set(&|knobs| knobs.error = on) />
+        <Check name=msg("warning") on=Signal::derive(move || knobs.get().warning) change=move |on| set(&|knobs| knobs.warning = on) />
+        <Check name=msg("silent") on=Signal::derive(move || knobs.get().silent) change=move |on| set(&|knobs| knobs.silent = on) />
+        <Check name=msg("echo") on=Signal::derive(move || knobs.get().echo) change=move |on| set(&|knobs| knobs.echo = on) />
         <Slider
             name="noise"
-            title="Noise of the angle"
-            unit="counts"
+            title=t("Noise of the angle")
+            unit=t("counts")
             most=8
             value=Signal::derive(move || knobs.get().noise)
             change=move |counts| set(&|knobs| knobs.noise = counts)
         />
         <Slider
             name="flip"
-            title="Bytes with a wrong bit"
-            unit="of 1000"
+            title=t("Bytes with a wrong bit")
+            unit=t("of 1000")
             most=200
             value=Signal::derive(move || knobs.get().flip)
             change=move |share| set(&|knobs| knobs.flip = share)
         />
         <Slider
             name="lost"
-            title="Replies lost"
-            unit="of 1000"
+            title=t("Replies lost")
+            unit=t("of 1000")
             most=200
             value=Signal::derive(move || knobs.get().lose)
             change=move |share| set(&|knobs| knobs.lose = share)
@@ -120,7 +145,7 @@ fn Check(
     view! {
         <label class="switch">
             <input type="checkbox" name=format!("demo-{name}") prop:checked=on on:change:target=move |event| change(event.target().checked()) />
-            {name}
+            {t(name)}
         </label>
     }
 }

@@ -1,7 +1,12 @@
 //! The devices of a BUS: a scan of all addresses, and a tile each.
 
 use crate::app::App;
-use encoderscope::{explain::grouped, format::Format};
+use encoderscope::{
+    explain::grouped,
+    format::Format,
+    language::{number, t},
+    text,
+};
 use encoderscope_web::message::{Device, Link, Snapshot, Wish};
 use leptos::prelude::*;
 
@@ -26,10 +31,10 @@ pub(crate) fn DevicesPanel() -> impl IntoView {
         is_bus.get().then(|| {
             view! {
                 <section class="panel devices">
-                    <h2>"Devices on the bus"</h2>
+                    <h2>{t("Devices on the bus")}</h2>
                     <div class="doors">
                         <button data-testid="scan" disabled=move || !open.get() || busy.get() on:click=move |_| app.wish(&Wish::Scan)>
-                            "Scan 32 addresses"
+                            {t("Scan 32 addresses")}
                         </button>
                         <span class="hint" data-testid="scan-result">{move || scan.get()}</span>
                     </div>
@@ -51,27 +56,28 @@ fn Tile(address: u8) -> impl IntoView {
             devices.find(|device| device.address == address).cloned()
         })
     });
+    let degrees = |degrees: f64| number(format_args!("{degrees:.3}°")).to_string();
     let own = move || app.profile.get().address == u32::from(address);
     let text = move || {
         let shown = device.get().and_then(|device: Device| device.reading);
         shown.map_or_else(
             || "–".to_owned(),
             |shown| match shown.turns {
-                Some(turns) => format!("{turns} turns {:.3}°", shown.degrees),
-                None => format!("{:.3}°", shown.degrees),
+                Some(turns) => text!("{} {0|turn|turns} {}", turns, degrees(shown.degrees)),
+                None => degrees(shown.degrees),
             },
         )
     };
     let state = move || {
         device.get().map_or_else(String::new, |device| {
-            let frames = format!(
+            let frames = text!(
                 "{} good, {} bad",
                 grouped(device.good as u64),
                 grouped(device.bad as u64)
             );
             match device.fresh {
                 true => frames,
-                false => format!("no answer · {frames}"),
+                false => text!("no answer · {}", frames),
             }
         })
     };
@@ -90,7 +96,7 @@ fn Tile(address: u8) -> impl IntoView {
             data-fresh=move || device.get().is_some_and(|device| device.fresh).to_string()
             on:click=move |_| app.wish(&Wish::Watch(address))
         >
-            <span class="address">"address " {address.to_string()}</span>
+            <span class="address">{text!("address {}", address)}</span>
             <b>{text}</b>
             <small>{state}</small>
         </button>

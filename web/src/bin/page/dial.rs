@@ -1,6 +1,6 @@
 //! The dial and the angle in digits.
 
-use encoderscope::explain::degrees_text;
+use encoderscope::{explain::degrees_text, language::number};
 use encoderscope_web::message::Shown;
 use js_sys::Math;
 use leptos::prelude::*;
@@ -37,7 +37,7 @@ pub(crate) fn Dial(#[prop(into)] degrees: Signal<Option<f64>>) -> impl IntoView 
         <svg class="dial" class:empty=move || degrees.get().is_none() viewBox="-106 -106 212 212" aria-hidden="true">
             <circle class="ring" r="100" />
             <g class="ticks">{ticks.collect_view()}</g>
-            <g class="labels">{labels.into_view()}</g>
+            <g>{labels.into_view()}</g>
             <path class="arc" d=arc />
             <g class="hand" transform=hand>
                 <line y2="-76" />
@@ -53,8 +53,9 @@ fn digits(shown: &Shown) -> (String, String) {
     let finest = |places: &u32| 360.0 * 10f64.powi(*places as i32) >= counts;
     let places = (0..6).find(finest).unwrap_or(6);
     let text = degrees_text(shown.angle as u64, shown.angle_bits, places);
+    let text = number(text).to_string();
     let trusted = text
-        .find('.')
+        .find(['.', ','])
         .map_or(text.len(), |point| (point + 4).min(text.len()));
     (text[..trusted].into(), format!("{}°", &text[trusted..]))
 }
@@ -63,7 +64,7 @@ fn digits(shown: &Shown) -> (String, String) {
 #[component]
 pub(crate) fn AngleDigits(#[prop(into)] shown: Signal<Option<Shown>>) -> impl IntoView {
     let text = Memo::new(move |_| {
-        let none = || ("–––.–––".into(), String::new());
+        let none = || (number("–––.–––").to_string(), String::new());
         shown.get().as_ref().map_or_else(none, digits)
     });
     view! {

@@ -9,8 +9,10 @@ use encoderscope::{
     decode::Decoder,
     explain::grouped,
     format::{Format, Link as Way},
+    language::{number, t},
     product::{Interface, Series},
     profile::Profile,
+    text,
 };
 use encoderscope_web::{
     link,
@@ -82,31 +84,36 @@ fn ladder(app: App) -> Vec<Rung> {
     let percent = snapshot.error_rate.map_or(0.0, |rate| rate * 100.0);
     let baud = match app.source.get() {
         Source::Port => baud_text(app, &profile),
-        _ => (Tone::Good, "the built-in encoder".into()),
+        _ => (Tone::Good, t("the built-in encoder").into()),
     };
     let talks = profile.link() == Way::Stream;
     let rungs = [
-        ("port", "Port open", baud.1),
+        ("port", t("Port open"), baud.1),
         (
             "answer",
             if talks {
-                "Encoder talks"
+                t("Encoder talks")
             } else {
-                "Encoder answers"
+                t("Encoder answers")
             },
             answer_text(&snapshot),
         ),
-        ("frames", "Frames stand out", rate_text(&snapshot, &profile)),
+        (
+            "frames",
+            t("Frames stand out"),
+            rate_text(&snapshot, &profile),
+        ),
         (
             "checks",
-            "Checks hold",
+            t("Checks hold"),
             match total > 0.0 {
-                true => format!(
-                    "{} of {}, {percent:.1} % errors{}",
+                true => text!(
+                    "{} of {}, {} % errors{}",
                     grouped(snapshot.counts.good as u64),
                     grouped(total as u64),
+                    number(format_args!("{percent:.1}")),
                     match profile.format {
-                        Format::Asi4 => "; ASI4 has no checksum: a disturbed digit goes unseen",
+                        Format::Asi4 => t("; ASI4 has no checksum: a disturbed digit goes unseen"),
                         _ => "",
                     }
                 ),
@@ -115,9 +122,9 @@ fn ladder(app: App) -> Vec<Rung> {
         ),
         (
             "reading",
-            "Reading",
+            t("Reading"),
             match height {
-                5 => format!("{} frames/s", grouped(snapshot.rate as u64)),
+                5 => text!("{} frames/s", grouped(snapshot.rate as u64)),
                 _ => String::new(),
             },
         ),
@@ -151,7 +158,7 @@ fn ladder(app: App) -> Vec<Rung> {
 pub(crate) fn findings(app: App) -> Vec<String> {
     let link = app.snapshot.with(|snapshot| snapshot.link.clone());
     let said = match obstacle(app) {
-        Some(obstacle) => ("No port", obstacle.text()),
+        Some(obstacle) => (t("No port"), obstacle.text()),
         None => link_text(&link, app),
     };
     let said = format!("{}. {}", said.0, said.1);
@@ -171,7 +178,7 @@ fn obstacle(app: App) -> Option<Obstacle> {
 /// A baud rate in few digits.
 fn short(rate: f64) -> String {
     match rate {
-        1e6.. => format!("{:.3} M", rate / 1e6),
+        1e6.. => text!("{} M", number(format_args!("{:.3}", rate / 1e6))),
         _ => grouped(rate.round() as u64),
     }
 }
@@ -182,32 +189,38 @@ fn baud_text(app: App, profile: &Profile) -> (Tone, String) {
     let made = app.port.get().map(|port| serial::made(port, profile.baud));
     match made {
         Some(Made::Rate(rate)) if (rate - f64::from(profile.baud)).abs() >= 1.0 => {
-            (Tone::Good, format!("{asked} asked, {} made", short(rate)))
+            (Tone::Good, text!("{} asked, {} made", asked, short(rate)))
         }
         Some(Made::Not(rate)) => (
             Tone::Warn,
-            format!(
-                "{asked} asked, which this chip does not make; its driver takes about {}",
+            text!(
+                "{} asked, which this chip does not make; its driver takes about {}",
+                asked,
                 short(rate)
             ),
         ),
         Some(Made::Rate(_) | Made::Listed | Made::Unknown) | None => {
-            (Tone::Good, format!("{asked} baud"))
+            (Tone::Good, text!("{} baud", asked))
         }
     }
 }
 
 fn answer_text(snapshot: &Snapshot) -> String {
-    let latency = snapshot.latency.map(|latency| format!("{latency:.2} ms"));
-    let p99 = snapshot
-        .latency_p99
-        .map(|latency| format!("p99 {latency:.2} ms"));
-    let echo = (snapshot.echo == Some(true)).then(|| "the adapter echoes requests".into());
+    let two = |latency: f64| number(format_args!("{latency:.2}")).to_string();
+    let latency = snapshot.latency.map(|latency| text!("{} ms", two(latency)));
+    let p99 = snapshot.latency_p99;
+    let p99 = p99.map(|latency| text!("p99 {} ms", two(latency)));
+    let echo = (snapshot.echo == Some(true)).then(|| t("the adapter echoes requests").into());
     // An adapter that holds bytes back cuts replies in two.
     let gap = snapshot
         .gap
         .filter(|gap| *gap >= 1.0 && snapshot.latency.is_some())
-        .map(|gap| format!("pauses of {gap:.1} ms within replies"));
+        .map(|gap| {
+            text!(
+                "pauses of {} ms within replies",
+                number(format_args!("{gap:.1}"))
+            )
+        });
     let parts = [latency, p99, echo, gap];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
 }
@@ -218,25 +231,28 @@ fn rate_text(snapshot: &Snapshot, profile: &Profile) -> String {
         return String::new();
     };
     let most = f64::from(profile.baud) / 10.0;
-    let text = format!("{} bytes/s", grouped(seen as u64));
+    let text = text!("{} bytes/s", grouped(seen as u64));
     if seen > most * 1.05 {
-        return format!(
-            "{text}, more than {} baud carry: the adapter runs faster than asked",
+        return text!(
+            "{}, more than {} baud carry: the adapter runs faster than asked",
+            text,
             grouped(profile.baud.into())
         );
     }
     let due = due_bytes(profile).filter(|_| seen > 0.0);
     // ASI1 may come without pauses as well (IP-75, 5.3.1), which is all that the rate carries.
     let why = match (due, &snapshot.link) {
-        (Some(due), Link::Reading) if seen < due * 0.9 => "bytes are lost on the way",
+        (Some(due), Link::Reading) if seen < due * 0.9 => t("bytes are lost on the way"),
         (Some(due), Link::Garbage) if seen < due * 0.9 || seen > most.max(due * 1.1) => {
-            "one side runs at another baud rate"
+            t("one side runs at another baud rate")
         }
         _ => return text,
     };
-    format!(
-        "{text}, {} are due: {why}",
-        grouped(due.unwrap_or(0.0) as u64)
+    text!(
+        "{}, {} are due: {}",
+        text,
+        grouped(due.unwrap_or(0.0) as u64),
+        why
     )
 }
 
@@ -250,54 +266,62 @@ fn due_bytes(profile: &Profile) -> Option<f64> {
 
 /// What the state of the link is called, and what to try next.
 fn link_text(link: &Link, app: App) -> (&'static str, String) {
-    match link {
-        Link::Closed => ("Not connected", String::new()),
-        Link::Opening => ("Opening the port", String::new()),
-        Link::Waiting => ("Port open", "No answer yet.".into()),
-        Link::Searching => ("Searching", "Only requests that read are sent.".into()),
-        Link::Reading => ("Reading", app.snapshot.with(slow_text)),
+    let (title, hint) = match link {
+        Link::Closed => (t("Not connected"), ""),
+        Link::Opening => (t("Opening the port"), ""),
+        Link::Waiting => (t("Port open"), t("No answer yet.")),
+        Link::Searching => (t("Searching"), t("Only requests that read are sent.")),
+        Link::Reading => return (t("Reading"), app.snapshot.with(slow_text)),
         Link::Silent { echo: false } => (
-            "No answer",
-            "Nothing comes back. Check the supply, swap A and B, check the baud rate and the \
-             order code, or let the page find the encoder."
-                .into(),
+            t("No answer"),
+            t(
+                "Nothing comes back. Check the supply, swap A and B, check the baud rate and the \
+               order code, or let the page find the encoder.",
+            ),
         ),
         Link::Silent { echo: true } => (
-            "Only the echo of the requests",
-            "The adapter works, the encoder does not answer. Check its supply, swap A and B."
-                .into(),
+            t("Only the echo of the requests"),
+            t("The adapter works, the encoder does not answer. Check its supply, swap A and B."),
         ),
         Link::Garbage => (
-            "Bytes, but no frames",
-            "Check the baud rate and the order code, swap A and B, add the terminator; or let the \
-             page find the encoder."
-                .into(),
+            t("Bytes, but no frames"),
+            t(
+                "Check the baud rate and the order code, swap A and B, add the terminator; or let \
+               the page find the encoder.",
+            ),
         ),
         Link::Failing => (
-            "Frames, but no check holds",
-            "The line is disturbed: check terminator, shield and supply, and that the adapter \
-             makes this baud rate."
-                .into(),
+            t("Frames, but no check holds"),
+            t(
+                "The line is disturbed: check terminator, shield and supply, and that the adapter \
+               makes this baud rate.",
+            ),
         ),
         Link::OtherProfile { .. } => (
-            "Another encoder than in the settings",
-            "The frames are good with the profile below; the order code says which is right."
-                .into(),
+            t("Another encoder than in the settings"),
+            t("The frames are good with the profile below; the order code says which is right."),
         ),
         Link::Unasked { .. } => (
-            "The encoder talks without being asked",
-            "It is a free-running model: choose PERIOD, ASI1 or ASI4 in the encoder settings."
-                .into(),
+            t("The encoder talks without being asked"),
+            t("It is a free-running model: choose PERIOD, ASI1 or ASI4 in the encoder settings."),
         ),
-        Link::Unfit { reason } => ("This profile has no serial line", format!("{reason}.")),
-        Link::Refused { reason } => ("The port could not be opened", reason.clone()),
+        Link::Unfit { reason, .. } => {
+            return (t("This profile has no serial line"), format!("{reason}."));
+        }
+        Link::Refused { reason, hint } => {
+            let title = t("The port could not be opened");
+            let said = [reason, hint].map(|part| t(part)).join(" ");
+            return (title, said.trim().to_owned());
+        }
         Link::Lost => (
-            "The port is gone",
-            "The adapter was unplugged, or the permission for it withdrawn. Plug it in and \
-             reconnect."
-                .into(),
+            t("The port is gone"),
+            t(
+                "The adapter was unplugged, or the permission for it withdrawn. Plug it in and \
+               reconnect.",
+            ),
         ),
-    }
+    };
+    (title, hint.into())
 }
 
 /// Whether replies come as late as FTDI adapters hold short ones unless told otherwise.
@@ -310,9 +334,10 @@ fn is_held(snapshot: &Snapshot) -> bool {
 
 fn slow_text(snapshot: &Snapshot) -> String {
     match is_held(snapshot) {
-        true => format!(
-            "Replies are held for {LATENCY} ms: set the adapter's latency timer to \
-             {LEAST_LATENCY} ms."
+        true => text!(
+            "Replies are held for {} ms: set the adapter's latency timer to {} ms.",
+            LATENCY,
+            LEAST_LATENCY
         ),
         false => String::new(),
     }
@@ -329,16 +354,16 @@ fn help(app: App, obstacle: Option<&Obstacle>) -> Option<(String, &'static str)>
         let series = Series::ALL.into_iter().find(comes_with)?;
         let (series, interface) = (series.key(), interface.key());
         let page = format!("#/reference?page=wiring&series={series}&interface={interface}");
-        Some((page, "Which wire goes where"))
+        Some((page, t("Which wire goes where")))
     };
     app.snapshot
         .with(|snapshot| match (obstacle, &snapshot.link) {
             (Some(Obstacle::RateNotMade(_)), _) => {
-                Some((adapters(), "Adapters that make this rate"))
+                Some((adapters(), t("Adapters that make this rate")))
             }
             (None, Link::Silent { .. } | Link::Garbage) => wiring(),
-            (None, Link::Refused { .. }) => Some((adapters(), "What must be allowed")),
-            (None, Link::Reading) if is_held(snapshot) => Some((adapters(), "How to set it")),
+            (None, Link::Refused { .. }) => Some((adapters(), t("What must be allowed"))),
+            (None, Link::Reading) if is_held(snapshot) => Some((adapters(), t("How to set it"))),
             _ => None,
         })
 }
@@ -357,7 +382,7 @@ pub(crate) fn LinkState() -> impl IntoView {
         obstacle.map_or_else(|| link.get().name(), |obstacle| obstacle.name())
     };
     let text = Memo::new(move |_| match obstacle.get() {
-        Some(obstacle) => ("No port".to_owned(), obstacle.text()),
+        Some(obstacle) => (t("No port").to_owned(), obstacle.text()),
         None => {
             let (title, hint) = link_text(&link.get(), app);
             (title.to_owned(), hint)
@@ -382,10 +407,10 @@ pub(crate) fn LinkState() -> impl IntoView {
         {move || other().and_then(|text| link::profile(&text).ok()).map(|profile| view! {
             <p class="suggestion" data-testid="suggestion" data-value=link::query(&profile)>
                 <span>{summary(&profile)}</span>
-                <button on:click=move |_| app.read_as(profile)>"Read it so"</button>
+                <button on:click=move |_| app.read_as(profile)>{t("Read it so")}</button>
             </p>
         })}
-        <ol class="ladder" aria-label="Link">
+        <ol class="ladder" aria-label=t("Link")>
             {move || rungs.get().into_iter().map(|rung| view! {
                 <li class=format!("rung {}", rung.tone.name()) data-testid="rung" data-name=rung.name data-value=rung.tone.name()>
                     <span class="sign" aria-hidden="true">{rung.tone.sign()}</span>

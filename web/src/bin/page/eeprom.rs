@@ -2,7 +2,7 @@
 //! setting.
 
 use crate::app::App;
-use encoderscope::format::t485::MEMORY_SIZE;
+use encoderscope::{format::t485::MEMORY_SIZE, language::t, text};
 use encoderscope_web::message::{Link, Setting, Wish};
 use leptos::prelude::*;
 
@@ -50,16 +50,23 @@ pub(crate) fn Eeprom(chosen: RwSignal<Option<Setting>>) -> impl IntoView {
         }
     };
     let answer = move || match (asked(), held()) {
-        (None, _) => "not read yet".into(),
-        (Some(_), None) => "asked; no answer yet".into(),
-        (Some(cell), Some(data)) => format!("0x{:02X} holds {}", cell.address, byte_text(data)),
+        (None, _) => t("not read yet").into(),
+        (Some(_), None) => t("asked; no answer yet").into(),
+        (Some(cell), Some(data)) => {
+            let address = cell.address;
+            text!(
+                "{} holds {}",
+                format_args!("0x{address:02X}"),
+                byte_text(data)
+            )
+        }
     };
     view! {
         <div class="eeprom">
             <h3>"EEPROM"</h3>
             <div class="doors">
                 <label>
-                    "Cell, 0…127 or 0x00…0x7F"
+                    {t("Cell, 0…127 or 0x00…0x7F")}
                     <input
                         name="memory-address"
                         autocomplete="off"
@@ -68,13 +75,13 @@ pub(crate) fn Eeprom(chosen: RwSignal<Option<Setting>>) -> impl IntoView {
                     />
                 </label>
                 <button data-testid="memory-read" disabled=move || !reading.get() || address.get().is_none() on:click=read>
-                    "Read"
+                    {t("Read")}
                 </button>
             </div>
             <p data-testid="memory-cell" data-value=move || held().map(|data| data.to_string()) role="status">{answer}</p>
             <div class="doors">
                 <label>
-                    "New byte, 0…255 or 0x00…0xFF"
+                    {t("New byte, 0…255 or 0x00…0xFF")}
                     <input
                         name="memory-byte"
                         autocomplete="off"
@@ -83,10 +90,10 @@ pub(crate) fn Eeprom(chosen: RwSignal<Option<Setting>>) -> impl IntoView {
                     />
                 </label>
                 <button data-testid="memory-write" disabled=move || to_write().is_none() on:click=move |_| chosen.set(to_write())>
-                    "Write…"
+                    {t("Write…")}
                 </button>
             </div>
-            <p class="hint">"A cell is read before it is written. What the cells mean stands in the maker's manual."</p>
+            <p class="hint">{t("A cell is read before it is written. What the cells mean stands in the maker's manual.")}</p>
         </div>
     }
 }

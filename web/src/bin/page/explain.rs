@@ -14,7 +14,11 @@ use crate::{
     profile_editor::{Offer, ProfileEditor},
 };
 use bits::BitRow;
-use encoderscope::sketch::{self, Sketch};
+use encoderscope::{
+    language::t,
+    sketch::{self, Sketch},
+    text,
+};
 use encoderscope_web::link::{Fragment, query};
 use exchange::Exchange;
 use fields::Fields;
@@ -55,7 +59,7 @@ pub(crate) fn Explain() -> impl IntoView {
                 </div>
                 <div class="side">
                     <section class="panel">
-                        <h2>"Which frame"</h2>
+                        <h2>{t("Which frame")}</h2>
                         <ProfileEditor offer=Offer::All />
                     </section>
                     <Verdict />
@@ -72,19 +76,6 @@ pub(crate) fn Explain() -> impl IntoView {
 fn Heading() -> impl IntoView {
     let app = expect_context::<App>();
     let paper = app.paper();
-    let title = move || {
-        let (title, count, bytes) = paper
-            .plan
-            .with(|plan| (plan.title.clone(), plan.cells.len(), plan.bytes));
-        let order = match bytes {
-            true => match count / 8 {
-                1 => "1 byte".into(),
-                bytes => format!("{bytes} bytes"),
-            },
-            false => format!("{count} bits, first on the wire on the left"),
-        };
-        view! { {title} <span>{order}</span> }
-    };
     let kinds = Memo::new(move |_| {
         let _ = paper.plan.get();
         let kinds = paper.with(|sketch| sketch.decoder().frame_kinds());
@@ -93,6 +84,18 @@ fn Heading() -> impl IntoView {
             .map(|kind| (kind.name, kind.title))
             .collect::<Vec<_>>()
     });
+    let title = move || {
+        let (name, count, bytes) = paper
+            .plan
+            .with(|plan| (plan.kind().to_owned(), plan.cells.len(), plan.bytes));
+        let mut kinds = kinds.get().into_iter();
+        let title = kinds.find(|known| known.0 == name).map(|known| known.1);
+        let order = match bytes {
+            true => text!("{} {0|byte|bytes}", count / 8),
+            false => text!("{} bits, first on the wire on the left", count),
+        };
+        view! { {title} <span>{order}</span> }
+    };
     let chosen = move || paper.plan.with(|plan| plan.kind().to_owned());
     let choose = move |name: String| paper.choose(app.profile.get_untracked(), &name);
     view! {
@@ -102,7 +105,7 @@ fn Heading() -> impl IntoView {
                 let kinds = kinds.get();
                 (kinds.len() > 1).then(|| view! {
                     <label>
-                        <span class="hint">"Frame"</span>
+                        <span class="hint">{t("Frame")}</span>
                         <select
                             data-testid="explain-kind"
                             prop:value=chosen
@@ -112,7 +115,7 @@ fn Heading() -> impl IntoView {
                                 let mine = name.clone();
                                 view! {
                                     <option value=name.clone() selected=move || chosen() == mine>
-                                        {format!("{} · {title}", name.replace('-', " "))}
+                                        {format!("{} · {title}", kind_title(&name))}
                                     </option>
                                 }
                             }).collect_view()}
@@ -121,6 +124,22 @@ fn Heading() -> impl IntoView {
                 })
             }}
         </div>
+    }
+}
+
+/// The name of a kind of frame for people.
+fn kind_title(name: &str) -> String {
+    let title = |name: &str| match name {
+        "get" => t("get").to_owned(),
+        "identity" => t("identity").to_owned(),
+        "memory-read" => t("memory read").to_owned(),
+        "memory-write" => t("memory write").to_owned(),
+        "twice" => t("twice").to_owned(),
+        other => t(&other.replace('-', " ")).to_owned(),
+    };
+    match name.strip_prefix("request-") {
+        Some(name) => text!("request {}", title(name)),
+        None => title(name),
     }
 }
 
@@ -151,7 +170,7 @@ fn Tools() -> impl IntoView {
     view! {
         <div class="tools">
             <label class="whole">
-                "The whole frame"
+                {t("The whole frame")}
                 <input
                     spellcheck="false"
                     autocomplete="off"
@@ -173,13 +192,13 @@ fn Tools() -> impl IntoView {
                             });
                         }
                     />
-                    "checks follow what is changed"
+                    {t("checks follow what is changed")}
                 </label>
                 <button data-testid="explain-mend" on:click=move |_| { paper.change(|sketch, _| sketch.mend()); }>
-                    "Compute the checks"
+                    {t("Compute the checks")}
                 </button>
             })}
-            <button data-testid="explain-example" on:click=again>"Example again"</button>
+            <button data-testid="explain-example" on:click=again>{t("Example again")}</button>
         </div>
         {move || paper.fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
     }
@@ -195,12 +214,12 @@ fn Errata() -> impl IntoView {
         (!errata.is_empty()).then(|| {
             view! {
                 <section class="panel errata">
-                    <h2>"The manuals are wrong here"</h2>
+                    <h2>{t("The manuals are wrong here")}</h2>
                     <ul>
                         {errata.into_iter().map(|erratum| view! {
                             <li data-testid="erratum">
-                                <b>{erratum.place}</b> ": “" {erratum.says} "”. Right is: " {erratum.right}
-                                " – " {erratum.because} "."
+                                <b>{t(erratum.place)}</b>
+                                {text!(": “{}”. Right is: {} – {}.", t(erratum.says), t(erratum.right), t(erratum.because))}
                             </li>
                         }).collect_view()}
                     </ul>

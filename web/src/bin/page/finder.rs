@@ -1,7 +1,7 @@
 //! Find it for me: what was tried, what was found, and how sure that is.
 
 use crate::app::{App, summary};
-use encoderscope::{explain::grouped, format::Format, profile::Profile};
+use encoderscope::{explain::grouped, format::Format, language::t, profile::Profile, text};
 use encoderscope_web::{
     link,
     message::{Found, Link, Search, SearchStage, Trial},
@@ -16,7 +16,7 @@ pub(crate) fn FindButton() -> impl IntoView {
             .with(|snapshot| snapshot.link == Link::Searching)
     };
     view! {
-        <button data-testid="find" disabled=searching on:click=move |_| app.find()>"Find it for me"</button>
+        <button data-testid="find" disabled=searching on:click=move |_| app.find()>{t("Find it for me")}</button>
     }
 }
 
@@ -24,18 +24,18 @@ pub(crate) fn FindButton() -> impl IntoView {
 fn trial_text(trial: &Trial) -> String {
     if !trial.tried {
         let baud = grouped(trial.baud.into());
-        return format!("{baud} baud · left out: this adapter does not make it");
+        return text!("{} baud · left out: this adapter does not make it", baud);
     }
     let title = |name: &String| Format::parse(name).map_or("", Format::title);
     let what = match &trial.format {
-        None => "listened".into(),
-        Some(name) => format!("{}, asked {} ×", title(name), trial.requests),
+        None => t("listened").into(),
+        Some(name) => text!("{}, asked {} ×", title(name), trial.requests),
     };
     let came = match trial.bytes {
-        0.0 => "silent".into(),
-        bytes => format!("{} bytes", grouped(bytes as u64)),
+        0.0 => t("silent").into(),
+        bytes => text!("{} {0|byte|bytes}", grouped(bytes as u64)),
     };
-    format!("{} baud · {what} · {came}", grouped(trial.baud.into()))
+    text!("{} baud · {} · {}", grouped(trial.baud.into()), what, came)
 }
 
 /// The search, while it runs and afterwards.
@@ -48,21 +48,25 @@ pub(crate) fn SearchPanel() -> impl IntoView {
             let Search { trials, found, stage } = search;
             let done = stage != SearchStage::Running;
             let verdict = match (stage, found.is_empty()) {
-                (SearchStage::Running, _) => "Listening and asking, with requests that only read.",
-                (_, false) => "Found:",
-                (SearchStage::BrokenOff, true) => "The search was broken off.",
+                (SearchStage::Running, _) => {
+                    t("Listening and asking, with requests that only read.")
+                }
+                (_, false) => t("Found:"),
+                (SearchStage::BrokenOff, true) => t("The search was broken off."),
                 (SearchStage::Ended, true) => {
-                    "Nothing was found. Check the supply and the wiring, swap A and B, and that \
-                     the adapter makes 2 500 000 baud."
+                    t(
+                        "Nothing was found. Check the supply and the wiring, swap A and B, and that the \
+                         adapter makes 2 500 000 baud.",
+                    )
                 }
             };
             view! {
                 <section class="panel search" data-testid="search" data-done=done.to_string()>
-                    <h2>"Find it for me"</h2>
+                    <h2>{t("Find it for me")}</h2>
                     <p class="hint">{verdict}</p>
                     {found.into_iter().map(|found| view! { <FoundCard found=found /> }).collect_view()}
                     <details open=!done>
-                        <summary>"What was tried"</summary>
+                        <summary>{t("What was tried")}</summary>
                         <ul class="trials">
                             {trials.iter().map(|trial| view! { <li>{trial_text(trial)}</li> }).collect_view()}
                         </ul>
@@ -88,13 +92,13 @@ fn FoundCard(found: Found) -> impl IntoView {
     let open = found.narrowest < widest;
     view! {
         <article class="found" data-testid="found" data-value=found.profile.clone() data-verdict=found.verdict.clone()>
-            <p class="name"><span>{move || summary(&chosen())}</span> <span class=format!("verdict {}", found.verdict)>{found.verdict.clone()}</span></p>
+            <p class="name"><span>{move || summary(&chosen())}</span> <span class=format!("verdict {}", found.verdict)>{t(&found.verdict).to_owned()}</span></p>
             <ul>{found.evidence.into_iter().map(|line| view! { <li>{line}</li> }).collect_view()}</ul>
             <div class="doors">
-                <button class="primary" data-testid="read-found" on:click=move |_| app.read_as(chosen())>"Read it"</button>
+                <button class="primary" data-testid="read-found" on:click=move |_| app.read_as(chosen())>{t("Read it")}</button>
                 {open.then(|| view! {
                     <label>
-                        "Bits per turn"
+                        {t("Bits per turn")}
                         <select name="found-bits" on:change:target=move |event| bits.set(event.target().value().parse().unwrap_or(widest))>
                             {(found.narrowest..=widest).rev().map(|width| view! { <option value=width>{width}</option> }).collect_view()}
                         </select>

@@ -1,5 +1,6 @@
 //! One frame: its bits and its fields; pointing at one lights the other.
 
+use encoderscope::text;
 use encoderscope_web::message::{Explained, FieldView};
 use leptos::prelude::*;
 
@@ -10,7 +11,11 @@ pub(crate) fn FrameView(frame: Explained) -> impl IntoView {
     let cell = |index: usize| {
         let note = frame.field_at(index);
         let class = note.map_or("none", |note| frame.notes[note].class.as_str());
-        let field = note.map_or("", |note| frame.notes[note].name.as_str());
+        let (field, title) = note.map_or(("", ""), |note| {
+            let note = &frame.notes[note];
+            (note.name.as_str(), note.title.as_str())
+        });
+        let value = u8::from(frame.bits[index]);
         let first = index == 0 || frame.field_at(index - 1) != note;
         view! {
             <button
@@ -20,13 +25,13 @@ pub(crate) fn FrameView(frame: Explained) -> impl IntoView {
                 data-testid="explain-bit"
                 data-field=field.to_owned()
                 data-index=index
-                aria-label=format!("bit {index}, {field}")
+                aria-label=text!("bit {}, {}, {}", index, title, value)
                 on:mouseenter=move |_| lit.set(note)
                 on:focus=move |_| lit.set(note)
                 on:mouseleave=move |_| lit.set(None)
                 on:blur=move |_| lit.set(None)
             >
-                {u8::from(frame.bits[index])}
+                {value}
             </button>
         }
     };
@@ -78,8 +83,8 @@ fn FieldRow(index: usize, note: FieldView, lit: RwSignal<Option<usize>>) -> impl
             on:mouseleave=move |_| lit.set(None)
             on:blur=move |_| lit.set(None)
         >
-            <span class="name">{note.name}</span>
-            <span class="raw">{note.raw} <small>" · " {width} " bit"</small></span>
+            <span class="name">{note.title}</span>
+            <span class="raw">{note.raw} <small>{text!(" · {} bit", width)}</small></span>
             <div class="says">
                 {text}
                 {set}

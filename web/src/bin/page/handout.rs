@@ -1,5 +1,6 @@
 //! What leaves the page: text on the clipboard, and files.
 
+use encoderscope::language::t;
 use js_sys::Array;
 use leptos::prelude::*;
 use std::time::Duration;
@@ -13,7 +14,7 @@ pub(crate) fn copy(text: String, said: RwSignal<Option<String>>, success: &'stat
         let written = wasm_bindgen_futures::JsFuture::from(clipboard.write_text(&text)).await;
         said.set(Some(match written {
             Ok(_) => success.into(),
-            Err(_) => "The browser does not let the page use the clipboard.".into(),
+            Err(_) => t("The browser does not let the page use the clipboard.").into(),
         }));
     });
 }

@@ -10,7 +10,12 @@ use crate::{
     profile_editor::{Offer, ProfileEditor},
     recordings::{RecordButton, ReplayBar},
 };
-use encoderscope::{explain::grouped, format::Link as Way};
+use encoderscope::{
+    explain::grouped,
+    format::Link as Way,
+    language::{number, t},
+    text,
+};
 use encoderscope_web::{
     message::{Counts, Snapshot},
     serial,
@@ -26,14 +31,16 @@ pub(crate) fn LinkPanel() -> impl IntoView {
     let title = move || match app.source.get() {
         Source::Port => {
             app.ports.track();
-            app.port.get().map_or("Serial port".into(), adapters::name)
+            app.port
+                .get()
+                .map_or_else(|| t("Serial port").into(), adapters::name)
         }
-        Source::Demo | Source::Preview => "Demo encoder".into(),
-        Source::Replay => "Recording".into(),
+        Source::Demo | Source::Preview => t("Demo encoder").into(),
+        Source::Replay => t("Recording").into(),
     };
     view! {
         <section class="panel link">
-            <h2>"Link"</h2>
+            <h2>{t("Link")}</h2>
             <p class="name">{title}</p>
             <LinkState />
             <ReplayBar />
@@ -41,20 +48,20 @@ pub(crate) fn LinkPanel() -> impl IntoView {
             <div class="doors">
                 {move || {
                     if open.get() && app.source.get() != Source::Replay {
-                        view! { <button data-testid="disconnect" on:click=move |_| app.disconnect()>"Disconnect"</button> }
+                        view! { <button data-testid="disconnect" on:click=move |_| app.disconnect()>{t("Disconnect")}</button> }
                             .into_any()
                     } else {
                         view! { <ConnectButton /> }.into_any()
                     }
                 }}
                 {move || (app.source.get() != Source::Demo || !open.get()).then(|| view! { <DemoButton /> })}
+                {move || lives().then(|| view! { <FindButton /> })}
                 {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <ConnectButton /> })}
             </div>
             <PortChooser />
-            {move || lives().then(|| view! { <div class="doors"><FindButton /></div> })}
             {move || (open.get() && app.source.get() == Source::Demo).then(|| view! { <DemoKnobs /> })}
             <details>
-                <summary>"Encoder settings"</summary>
+                <summary>{t("Encoder settings")}</summary>
                 <ProfileEditor offer=Offer::Serial />
             </details>
             {move || polled().then(|| view! { <PaceChooser /> })}
@@ -78,7 +85,7 @@ fn PortChooser() -> impl IntoView {
         {move || (known() > 0 || missing().is_some()).then(|| view! {
             <div class="ports">
                 <label>
-                    "Port"
+                    {t("Port")}
                     <select
                         data-testid="port"
                         on:change:target=move |event| {
@@ -89,19 +96,19 @@ fn PortChooser() -> impl IntoView {
                         }
                     >
                         {move || missing().map(|port| view! {
-                            <option disabled selected>{adapters::name(port)} " · not plugged in"</option>
+                            <option disabled selected>{adapters::name(port)} {t(" · not plugged in")}</option>
                         })}
                         {app.ports.get().into_iter().enumerate().map(|(index, port)| view! {
                             <option value=index selected=move || app.port.get() == Some(port)>{adapters::name(port)}</option>
                         }).collect_view()}
                     </select>
                 </label>
-                <button class="quiet" on:click=move |_| leptos::task::spawn_local(app.add_port())>"Add…"</button>
+                <button class="quiet" on:click=move |_| leptos::task::spawn_local(app.add_port())>{t("Add…")}</button>
             </div>
         })}
         {move || app.port.get().map(|port| view! {
             <label class="port-name">
-                "Name of this adapter"
+                {t("Name of this adapter")}
                 <input
                     name="port-name"
                     prop:value=adapters::name(port)
@@ -136,16 +143,16 @@ fn Count(
 fn Counters() -> impl IntoView {
     view! {
         <dl class="counts">
-            <Count label="good frames" testid="frames-ok" read=|snapshot| snapshot.counts.good />
-            <Count label="bad frames" testid="frames-bad" read=|snapshot| snapshot.counts.bad />
+            <Count label=t("good frames") testid="frames-ok" read=|snapshot| snapshot.counts.good />
+            <Count label=t("bad frames") testid="frames-bad" read=|snapshot| snapshot.counts.bad />
             <ErrorRate />
-            <Count label="frames a second" testid="rate" read=|snapshot| snapshot.rate />
-            <Count label="no answer" testid="silent" read=|snapshot| snapshot.counts.silent />
-            <Count label="bytes in" testid="bytes-in" read=|snapshot| snapshot.counts.bytes />
-            <Count label="in frames" testid="bytes-framed" read=|snapshot| snapshot.counts.framed />
-            <Count label="skipped" testid="bytes-skipped" read=|snapshot| snapshot.counts.skipped />
-            <Counted label="beside reading" testid="bytes-set" read=|counts| counts.set />
-            <Counted label="line errors" testid="line-errors" read=|counts| counts.line />
+            <Count label=t("frames a second") testid="rate" read=|snapshot| snapshot.rate />
+            <Count label=t("no answer") testid="silent" read=|snapshot| snapshot.counts.silent />
+            <Count label=t("bytes in") testid="bytes-in" read=|snapshot| snapshot.counts.bytes />
+            <Count label=t("in frames") testid="bytes-framed" read=|snapshot| snapshot.counts.framed />
+            <Count label=t("skipped") testid="bytes-skipped" read=|snapshot| snapshot.counts.skipped />
+            <Counted label=t("beside reading") testid="bytes-set" read=|counts| counts.set />
+            <Counted label=t("line errors") testid="line-errors" read=|counts| counts.line />
         </dl>
     }
 }
@@ -155,15 +162,15 @@ fn Counters() -> impl IntoView {
 fn PaceChooser() -> impl IntoView {
     let app = expect_context::<App>();
     let rates = [
-        ("0", "as often as it answers"),
-        ("1000", "1 000 times a second"),
-        ("100", "100 times a second"),
-        ("10", "10 times a second"),
-        ("1", "once a second"),
+        ("0", t("as often as it answers")),
+        ("1000", t("1 000 times a second")),
+        ("100", t("100 times a second")),
+        ("10", t("10 times a second")),
+        ("1", t("once a second")),
     ];
     view! {
         <label>
-            "Asked"
+            {t("Asked")}
             <select
                 name="pace"
                 on:change:target=move |event| app.set_pace(event.target().value().parse().unwrap_or(0.0))
@@ -182,9 +189,9 @@ fn ErrorRate() -> impl IntoView {
     let app = expect_context::<App>();
     let rate = Memo::new(move |_| app.snapshot.with(|snapshot| snapshot.error_rate));
     view! {
-        <dt>"errors, last 5 s"</dt>
+        <dt>{t("errors, last 5 s")}</dt>
         <dd data-testid="error-rate" data-value=move || rate.get().map(|rate| rate.to_string())>
-            {move || rate.get().map_or_else(|| "–".to_owned(), |rate| format!("{:.1} %", rate * 100.0))}
+            {move || rate.get().map_or_else(|| "–".to_owned(), |rate| text!("{} %", number(format_args!("{:.1}", rate * 100.0))))}
         </dd>
     }
 }

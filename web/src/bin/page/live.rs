@@ -8,6 +8,8 @@ use encoderscope::{
     explain::{grouped, grouped_signed},
     format::blinks,
     lamp::{Health, Light},
+    language::{number, t},
+    text,
 };
 use encoderscope_web::message::{Lamp, Link, Shown, Snapshot};
 use leptos::prelude::*;
@@ -26,14 +28,14 @@ pub(crate) fn Angle() -> impl IntoView {
     let shown = app.feed.reading;
     let stale = move || shown.get().is_some() && !app.snapshot.with(is_fresh);
     let heading = move || match app.source.get() {
-        Source::Port => "Angle",
-        Source::Replay => "Recording · angle",
-        Source::Demo | Source::Preview => "Demo · angle",
+        Source::Port => t("Angle"),
+        Source::Replay => t("Recording · angle"),
+        Source::Demo | Source::Preview => t("Demo · angle"),
     };
     let counts = move || {
         shown.get().map(|shown| {
             let all = 2f64.powi(shown.angle_bits as i32);
-            format!(
+            text!(
                 "{} / {} counts",
                 grouped(shown.angle as u64),
                 grouped(all as u64)
@@ -64,29 +66,47 @@ pub(crate) fn Angle() -> impl IntoView {
             <div class="figures">
                 <h2>{heading}</h2>
                 <AngleDigits shown=shown />
-                <p class="of">{move || counts().unwrap_or_else(|| "no reading yet".into())}</p>
+                <p class="of">{move || counts().unwrap_or_else(|| t("no reading yet").into())}</p>
                 <dl>
-                    {row("turns", "turns", |shown| shown.turns, |turns| grouped_signed(turns as i64))}
+                    {row(t("turns"), "turns", |shown| shown.turns, |turns| grouped_signed(turns as i64))}
                     {row(
-                        "unwrapped",
+                        t("unwrapped"),
                         "unwrapped",
                         |shown| shown.turns.map(|turns| turns.mul_add(360.0, shown.degrees)),
-                        |degrees| format!("{degrees:.3}°"),
+                        |degrees| fine(degrees, 1000, "°"),
                     )}
                     {row(
-                        "arc-seconds",
+                        t("arc-seconds"),
                         "arc-seconds",
                         |shown| Some(shown.degrees * 3600.0),
-                        |seconds| format!("{}.{}″", grouped(seconds as u64), (seconds * 10.0) as u64 % 10),
+                        |seconds| fine(seconds, 10, "″"),
                     )}
-                    {row("speed", "speed", |shown| shown.speed, |speed| format!("{speed:.1} rev/s"))}
+                    {row(t("speed"), "speed", |shown| shown.speed, |speed| text!("{} rev/s", number(format_args!("{speed:.1}"))))}
                     <Turning />
-                    {row("temperature", "temperature", |shown| shown.temperature, |temperature| format!("{temperature:.1} °C"))}
+                    {row(
+                        t("temperature"),
+                        "temperature",
+                        |shown| shown.temperature,
+                        |degrees| number(format_args!("{degrees:.1} °C")).to_string(),
+                    )}
                 </dl>
-                {move || stale().then(|| view! { <p class="hint">"last reading before the link stopped"</p> })}
+                {move || stale().then(|| view! { <p class="hint">{t("last reading before the link stopped")}</p> })}
             </div>
         </section>
     }
+}
+
+/// A number with a space between thousands, cut to so many parts of one.
+fn fine(value: f64, parts: u64, unit: &str) -> String {
+    let sign = if value < 0.0 { "-" } else { "" };
+    let all = (value.abs() * parts as f64) as u64;
+    let part = (parts + all % parts).to_string();
+    number(format_args!(
+        "{sign}{}.{}{unit}",
+        grouped(all / parts),
+        &part[1..]
+    ))
+    .to_string()
 }
 
 /// The speed from the angles, where the frames carry none.
@@ -101,9 +121,9 @@ fn Turning() -> impl IntoView {
     move || {
         (!carried.get()).then(|| {
             view! {
-                <dt>"speed, from the angle"</dt>
+                <dt>{t("speed, from the angle")}</dt>
                 <dd data-testid="turning" data-value=move || turning.get().map(|speed| speed.to_string())>
-                    {move || turning.get().map_or_else(|| "–".to_owned(), |speed| format!("{speed:.2} rev/s"))}
+                    {move || turning.get().map_or_else(|| "–".to_owned(), |speed| text!("{} rev/s", number(format_args!("{speed:.2}"))))}
                 </dd>
             }
         })
@@ -118,7 +138,7 @@ fn led(shown: &Shown) -> (&'static str, &'static str) {
         status: 0,
     };
     let light = health.light();
-    (tone(light), light.meaning())
+    (tone(light), t(light.meaning()))
 }
 
 /// The class of a lamp in a colour.
@@ -148,13 +168,13 @@ pub(crate) fn Status() -> impl IntoView {
     });
     view! {
         <section class="panel status" data-testid="status" data-value=move || value.get().map(|status| status.to_string())>
-            <h2>"Status"</h2>
+            <h2>{t("Status")}</h2>
             <ul>
                 {move || led.get().map(|((tone, text), blinking)| {
-                    let text = if blinking { format!("{text}, blinking") } else { text.into() };
+                    let text = if blinking { text!("{}, blinking", text) } else { text.into() };
                     view! {
                         <li class=format!("lamp {tone}") class:blink=blinking data-testid="led">
-                            <span>"Encoder LED"</span>
+                            <span>{t("Encoder LED")}</span>
                             <span class="when">{text}</span>
                         </li>
                     }
@@ -162,8 +182,8 @@ pub(crate) fn Status() -> impl IntoView {
                 {move || lamps.get().into_iter().map(lamp_row).collect_view()}
             </ul>
             {move || match (led.get(), lamps.with(Vec::is_empty)) {
-                (None, _) => Some("Shown with the first good frame."),
-                (Some(_), true) => Some("These frames carry no status bits."),
+                (None, _) => Some(t("Shown with the first good frame.")),
+                (Some(_), true) => Some(t("These frames carry no status bits.")),
                 (Some(_), false) => None,
             }.map(|hint| view! { <p class="hint">{hint}</p> })}
         </section>
@@ -182,13 +202,13 @@ struct LampText {
 
 fn lamp_text(lamp: &Lamp) -> LampText {
     LampText {
-        name: lamp.name.clone(),
-        doc: (lamp.seen > 0.0).then(|| lamp.doc.clone()),
+        name: t(&lamp.name).to_owned(),
+        doc: (lamp.seen > 0.0).then(|| t(&lamp.doc).to_owned()),
         now: lamp.now,
         when: match (lamp.now, lamp.seen > 0.0) {
-            (true, _) => "now".into(),
-            (false, true) => format!("in {} frames", grouped(lamp.seen as u64)),
-            (false, false) => "never".into(),
+            (true, _) => t("now").into(),
+            (false, true) => text!("in {} {0|frame|frames}", grouped(lamp.seen as u64)),
+            (false, false) => t("never").into(),
         },
     }
 }

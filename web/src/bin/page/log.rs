@@ -12,6 +12,7 @@ use crate::{
     app::{App, Source},
     parts::{self, later},
 };
+use encoderscope::language::{msg, number, t};
 use encoderscope_web::message::{ENTRIES, Entry, LogFilter, ToEngine};
 use leptos::prelude::*;
 
@@ -75,16 +76,16 @@ pub(crate) fn Frames() -> impl IntoView {
     let sends = move || reads() && app.source.get() != Source::Replay;
     view! {
         <section class="panel frames">
-            <h2>"Frames"</h2>
+            <h2>{t("Frames")}</h2>
             {move || reads().then(|| later(move || parts::log_controls(view), || ()))}
             <div class="rows-of">
                 <table>
                     <thead>
                         <tr>
-                            <th>"time"</th>
-                            <th><span class="unseen">"direction"</span></th>
-                            <th>"bytes"</th>
-                            <th>"check"</th>
+                            <th>{t("time")}</th>
+                            <th><span class="unseen">{t("direction")}</span></th>
+                            <th>{t("bytes")}</th>
+                            <th>{t("check")}</th>
                         </tr>
                     </thead>
                     <tbody>
@@ -134,26 +135,30 @@ fn Row(
             <tr
                 class:chosen=is_chosen
                 data-testid="frame-row"
-                data-direction=cell(direction)
+                data-direction=cell(|entry| direction(entry).to_owned())
                 data-ok=ok
                 on:click=move |_| choose(index)
             >
                 <td class="time">
-                    <button class="quiet" title="Explain these bytes">
-                        {cell(|entry| format!("{:.4}", entry.time))}
+                    <button class="quiet" title=t("Explain these bytes")>
+                        {cell(|entry| number(format_args!("{:.4}", entry.time)).to_string())}
                     </button>
                 </td>
-                <td title=cell(direction)>{cell(|entry| if entry.sent { "→" } else { "←" }.into())}</td>
+                <td title=cell(|entry| t(direction(entry)).to_owned())>{cell(|entry| if entry.sent { "→" } else { "←" }.into())}</td>
                 <td class="bytes">{bytes}</td>
-                <td class=cell(verdict)>{cell(|entry| if entry.ok == Some(true) { "✓".into() } else { entry.text.clone() })}</td>
+                <td class=cell(verdict)>{cell(|entry| if entry.ok == Some(true) { "✓" } else { t(&entry.text) }.to_owned())}</td>
             </tr>
         }
     };
     move || exists.get().then(row)
 }
 
-fn direction(entry: &Entry) -> String {
-    if entry.sent { "sent" } else { "received" }.into()
+const fn direction(entry: &Entry) -> &'static str {
+    if entry.sent {
+        msg("sent")
+    } else {
+        msg("received")
+    }
 }
 
 fn verdict(entry: &Entry) -> String {

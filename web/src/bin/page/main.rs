@@ -20,6 +20,7 @@ mod explain;
 mod finder;
 mod frame_view;
 mod handout;
+mod language;
 mod link_panel;
 mod live;
 mod log;
@@ -31,7 +32,6 @@ mod recordings;
 mod reference;
 mod setting;
 mod standstill;
-mod theme;
 mod zero_wire;
 
 use encoderscope_web::browser::Peer;
@@ -44,6 +44,12 @@ extern "C" {
     #[derive(Clone, Debug)]
     /// Fetches and makes what is not Rust; `web/js/main.js`.
     pub type Workers;
+    /// The language that the page begins with, by its code.
+    #[wasm_bindgen(method, getter)]
+    fn language(this: &Workers) -> String;
+    /// Its texts; undefined for English.
+    #[wasm_bindgen(method, getter)]
+    fn texts(this: &Workers) -> JsValue;
     /// One that runs the engine.
     #[wasm_bindgen(method, catch)]
     fn engine(this: &Workers) -> Result<Peer, JsValue>;
@@ -64,5 +70,6 @@ extern "C" {
 /// Mounts the page.
 #[wasm_bindgen]
 pub fn start(workers: Workers) {
-    leptos::mount::mount_to_body(move || app::app(workers));
+    // The page itself has no views: they are made anew with the language.
+    leptos::mount::mount_to_body(move || app::start(workers));
 }

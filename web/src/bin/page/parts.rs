@@ -14,6 +14,7 @@ use crate::{
     recordings::{Recordings, Remains},
     reference::Reference,
 };
+use encoderscope::language::t;
 use encoderscope_web::{
     link::Fragment,
     message::{Entry, PortId},
@@ -107,7 +108,7 @@ pub(crate) fn recall(app: App, port: PortId) -> Result<(), SplitLoaderError> {
 
 /// Says that something is on its way.
 pub(crate) fn coming() -> impl IntoView {
-    view! { <p class="coming" role="status">"Loading…"</p> }
+    view! { <p class="coming" role="status">{t("Loading…")}</p> }
 }
 
 /// A part once its code is there; until then `meanwhile`.
@@ -140,9 +141,12 @@ where
         {move || waits.get().then(meanwhile)}
         {move || fails.get().then(|| view! {
             <p class="notice" role="alert" data-testid="part-missing">
-                "This part of the page could not be loaded: the network is gone, or the page was "
-                "renewed on its server meanwhile; then reload it. "
-                <button on:click=again>"Try again"</button>
+                {t(
+                    "This part of the page could not be loaded: the network is gone, or the page was renewed on \
+                     its server meanwhile; then reload it.",
+                )}
+                " "
+                <button on:click=again>{t("Try again")}</button>
             </p>
         })}
     }

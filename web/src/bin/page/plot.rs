@@ -1,17 +1,23 @@
 //! The plot: angle, speed, temperature and errors over time.
 
 mod chart;
+mod view;
 
 pub(crate) use chart::{Canvas, Chart};
 
 use crate::app::App;
-use chart::{ChartView, Height, text, value_at};
+use chart::{ChartView, Height};
+use encoderscope::{
+    language::{number, t},
+    text,
+};
 use encoderscope_web::{
     message::{Shown, Wish},
-    plot::{Plot, PlotRequest, Quantity, Rest, Stretch},
+    plot::{Plot, Quantity, Rest},
 };
 use leptos::prelude::*;
 use std::time::Duration;
+use view::{Span, View};
 
 /// How often the page asks.
 const ASK: Duration = Duration::from_millis(100);
@@ -39,234 +45,6 @@ impl Feed {
             rest: RwSignal::new(None),
             parcels: RwSignal::new(false),
         }
-    }
-}
-
-/// How much of the past is shown while it goes on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Span {
-    Seconds20,
-    Minutes2,
-    Minutes10,
-    Hour,
-    All,
-}
-
-impl Span {
-    const ALL: [Self; 5] = [
-        Self::Seconds20,
-        Self::Minutes2,
-        Self::Minutes10,
-        Self::Hour,
-        Self::All,
-    ];
-
-    const fn title(self) -> &'static str {
-        match self {
-            Self::Seconds20 => "20 s",
-            Self::Minutes2 => "2 min",
-            Self::Minutes10 => "10 min",
-            Self::Hour => "1 h",
-            Self::All => "All",
-        }
-    }
-
-    const fn stretch(self) -> Stretch {
-        match self {
-            Self::Seconds20 => Stretch::Last(20.0),
-            Self::Minutes2 => Stretch::Last(120.0),
-            Self::Minutes10 => Stretch::Last(600.0),
-            Self::Hour => Stretch::Last(3600.0),
-            Self::All => Stretch::All,
-        }
-    }
-}
-
-/// What the plot shows and how.
-#[derive(Clone, Copy)]
-struct View {
-    feed: Feed,
-    app: App,
-    span: RwSignal<Span>,
-    /// The time that is looked at while the plot is paused.
-    held: RwSignal<Option<(f64, f64)>>,
-    shown: RwSignal<Vec<Quantity>>,
-    height: RwSignal<Height>,
-    /// Where the pointer is.
-    cursor: RwSignal<Option<f64>>,
-    mark: RwSignal<Option<f64>>,
-    columns: RwSignal<u32>,
-}
-
-impl View {
-    fn new(app: App) -> Self {
-        Self {
-            feed: app.feed,
-            app,
-            span: RwSignal::new(Span::Seconds20),
-            held: RwSignal::new(None),
-            shown: RwSignal::new(remembered()),
-            height: RwSignal::new(Height::Whole),
-            cursor: RwSignal::new(None),
-            mark: RwSignal::new(None),
-            columns: RwSignal::new(600),
-        }
-    }
-
-    fn request(&self) -> PlotRequest {
-        PlotRequest {
-            stretch: match self.held.get() {
-                Some((from, to)) => Stretch::Between(from, to),
-                None => self.span.get().stretch(),
-            },
-            columns: self.columns.get(),
-            quantities: self.shown.get(),
-        }
-    }
-
-    /// A gesture on a chart.
-    fn told(&self, what: &str, a: f64, b: f64) {
-        let time = Some(a).filter(|at| !at.is_nan());
-        match what {
-            "zoom" => self.held.set(Some((a, b))),
-            "cursor" if self.cursor.get_untracked() != time => self.cursor.set(time),
-            "mark" => self.mark.set(time),
-            "live" => self.go_on(),
-            "width" if a >= 1.0 => self.columns.set(a as u32),
-            _ => {}
-        }
-    }
-
-    fn pause(&self) {
-        let ends = self.feed.plot.with_untracked(|plot| (plot.from, plot.to));
-        self.held.set(Some(ends));
-    }
-
-    fn go_on(&self) {
-        self.held.set(None);
-        self.mark.set(None);
-    }
-
-    /// Looks at another time: `scale` times as long, moved by `shift` of its length.
-    fn look(&self, scale: f64, shift: f64) {
-        let ends = self.feed.plot.with_untracked(|plot| (plot.from, plot.to));
-        let (from, to) = self.held.get_untracked().unwrap_or(ends);
-        let half = (to - from) / 2.0 * scale;
-        let middle = (from + to) / 2.0 + (to - from) * shift;
-        self.held.set(Some((middle - half, middle + half)));
-    }
-
-    fn toggle(&self, quantity: Quantity) {
-        self.shown.update(|shown| {
-            let wanted = |other: &Quantity| shown.contains(other) != (*other == quantity);
-            *shown = Quantity::ALL.into_iter().filter(wanted).collect();
-        });
-        remember(&self.shown.get_untracked());
-    }
-
-    fn is_shown(&self, quantity: Quantity) -> bool {
-        self.shown.with(|shown| shown.contains(&quantity))
-    }
-
-    /// Degrees in a count of the encoder.
-    fn count(&self) -> f64 {
-        let bits = self.app.snapshot.with_untracked(|snapshot| {
-            let reading = snapshot.reading.as_ref();
-            reading.map_or(24, |reading| reading.angle_bits)
-        });
-        360.0 / 2f64.powi(bits as i32)
-    }
-
-    /// The time and the values at the cursor; with a mark, how far they are from it.
-    fn readout(&self) -> Vec<(&'static str, String)> {
-        let (cursor, mark) = (self.cursor.get(), self.mark.get());
-        let Some(at) = cursor.or(mark) else {
-            return Vec::new();
-        };
-        self.feed.plot.with(|plot| {
-            let traces = plot.traces.iter();
-            match (cursor, mark) {
-                (Some(cursor), Some(mark)) => {
-                    let time = seconds_text(cursor - mark);
-                    let apart = traces.filter_map(|trace| {
-                        let apart = difference(
-                            trace.quantity,
-                            value_at(trace, cursor)?,
-                            value_at(trace, mark)?,
-                        );
-                        Some((
-                            trace.quantity.name(),
-                            format!("Δ {}", text(trace.quantity, apart)),
-                        ))
-                    });
-                    [("from the mark", format!("Δ {time}"))]
-                        .into_iter()
-                        .chain(apart)
-                        .collect()
-                }
-                _ => {
-                    let label = if cursor.is_some() { "cursor" } else { "mark" };
-                    let values = traces.filter_map(|trace| {
-                        Some((
-                            trace.quantity.name(),
-                            text(trace.quantity, value_at(trace, at)?),
-                        ))
-                    });
-                    [(label, seconds_text(at))]
-                        .into_iter()
-                        .chain(values)
-                        .collect()
-                }
-            }
-        })
-    }
-
-    /// From the mark to the cursor: seconds, and how far the first quantity is apart.
-    fn delta(&self) -> Option<(f64, Option<f64>)> {
-        let (cursor, mark) = (self.cursor.get()?, self.mark.get()?);
-        let apart = self.feed.plot.with(|plot| {
-            let trace = plot.traces.first()?;
-            Some(difference(
-                trace.quantity,
-                value_at(trace, cursor)?,
-                value_at(trace, mark)?,
-            ))
-        });
-        Some((cursor - mark, apart))
-    }
-}
-
-/// How far a value is from another; an angle goes the shorter way.
-fn difference(quantity: Quantity, value: f64, other: f64) -> f64 {
-    let apart = value - other;
-    match quantity {
-        Quantity::Angle => apart - (apart / 360.0).round() * 360.0,
-        _ => apart,
-    }
-}
-
-fn seconds_text(seconds: f64) -> String {
-    format!("{seconds:.4} s").replace('-', "−")
-}
-
-/// The quantities that were shown last.
-fn remembered() -> Vec<Quantity> {
-    let storage = window().local_storage().ok().flatten();
-    let names = storage.and_then(|storage| storage.get_item("plot").ok().flatten());
-    match names {
-        Some(names) => {
-            let listed = |quantity: &Quantity| names.split(' ').any(|name| name == quantity.name());
-            Quantity::ALL.into_iter().filter(listed).collect()
-        }
-        None => vec![Quantity::Angle],
-    }
-}
-
-fn remember(shown: &[Quantity]) {
-    let names: Vec<_> = shown.iter().map(|quantity| quantity.name()).collect();
-    if let Ok(Some(storage)) = window().local_storage() {
-        // A browser that keeps nothing shows the angle next time.
-        let _ = storage.set_item("plot", &names.join(" "));
     }
 }
 
@@ -312,7 +90,7 @@ fn ask(view: View) {
 #[component]
 pub(crate) fn PlotPanel() -> impl IntoView {
     let app = expect_context::<App>();
-    let view = View::new(app);
+    let view = app.keep(|| View::new(app));
     ask(view);
     let plot = view.feed.plot;
     let available = Memo::new(move |_| plot.with(|plot| plot.available.clone()));
@@ -332,13 +110,14 @@ pub(crate) fn PlotPanel() -> impl IntoView {
     };
     let paused = move || view.held.get().is_some();
     let heading = move || match (view.held.get(), view.span.get()) {
-        (Some(_), _) => "Paused".into(),
-        (None, Span::All) => "Since the link was opened".into(),
-        (None, span) => format!("Last {}", span.title()),
+        (Some(_), _) => t("Paused").into(),
+        (None, Span::All) => t("Since the link was opened").into(),
+        (None, span) => text!("Last {}", span.title()),
     };
     let stretch = move || {
         let (from, to) = view.held.get()?;
-        Some(format!("{:.2} … {to:.2} s", from.max(0.0)))
+        let stretch = format!("{:.2} … {to:.2}", from.max(0.0));
+        Some(text!("{} s", number(stretch)))
     };
     let points = move || {
         plot.with(|plot| {
@@ -359,15 +138,15 @@ pub(crate) fn PlotPanel() -> impl IntoView {
         >
             <h2>{heading} <span>{stretch}</span></h2>
             <Controls view=view />
-            {move || drawn.get().is_empty().then(|| view! { <p class="hint">"Choose what is drawn."</p> })}
+            {move || drawn.get().is_empty().then(|| view! { <p class="hint">{t("Choose what is drawn.")}</p> })}
             {Quantity::ALL.map(chart).into_iter().collect_view()}
             <div class="below">
                 <Readout view=view />
-                <div class="group" role="group" aria-label="Time that is shown">
-                    <button on:click=move |_| view.look(1.0, -0.5) aria-label="Earlier">"◂"</button>
-                    <button on:click=move |_| view.look(1.0, 0.5) aria-label="Later">"▸"</button>
-                    <button data-testid="plot-zoom-in" on:click=move |_| view.look(0.5, 0.0) aria-label="Zoom in">"+"</button>
-                    <button on:click=move |_| view.look(2.0, 0.0) aria-label="Zoom out">"−"</button>
+                <div class="group" role="group" aria-label=t("Time that is shown")>
+                    <button on:click=move |_| view.look(1.0, -0.5) aria-label=t("Earlier")>"◂"</button>
+                    <button on:click=move |_| view.look(1.0, 0.5) aria-label=t("Later")>"▸"</button>
+                    <button data-testid="plot-zoom-in" on:click=move |_| view.look(0.5, 0.0) aria-label=t("Zoom in")>"+"</button>
+                    <button on:click=move |_| view.look(2.0, 0.0) aria-label=t("Zoom out")>"−"</button>
                 </div>
             </div>
         </section>
@@ -403,32 +182,32 @@ fn Controls(view: View) -> impl IntoView {
                 hidden=move || !offered()
                 on:click=move |_| view.toggle(quantity)
             >
-                {quantity.name()}
+                {t(quantity.name())}
             </button>
         }
     };
     let fits = move || view.height.get() == Height::Fit;
     view! {
         <div class="controls">
-            <div class="group" role="group" aria-label="How it goes on">
+            <div class="group" role="group" aria-label=t("How it goes on")>
                 <button
                     class="pause"
                     data-testid="plot-pause"
                     on:click=move |_| if view.held.get_untracked().is_some() { view.go_on() } else { view.pause() }
                 >
-                    {move || if paused() { "Live" } else { "Pause" }}
+                    {move || if paused() { t("Live") } else { t("Pause") }}
                 </button>
                 {Span::ALL.map(span).into_iter().collect_view()}
             </div>
-            <div class="group" role="group" aria-label="What is drawn">
+            <div class="group" role="group" aria-label=t("What is drawn")>
                 {Quantity::ALL.map(quantity).into_iter().collect_view()}
                 <button
                     data-testid="plot-fit"
                     aria-pressed=move || fits().to_string()
-                    title="Draw the angle as large as it fits, not on a whole turn"
+                    title=t("Draw the angle as large as it fits, not on a whole turn")
                     on:click=move |_| view.height.set(if fits() { Height::Whole } else { Height::Fit })
                 >
-                    "fit angle"
+                    {t("fit angle")}
                 </button>
             </div>
         </div>
@@ -440,7 +219,7 @@ fn Controls(view: View) -> impl IntoView {
 fn Readout(view: View) -> impl IntoView {
     let delta = move || view.delta();
     view! {
-        <dl
+        <div
             class="readout"
             data-testid="plot-cursor"
             data-time=move || view.cursor.get().map(|time| time.to_string())
@@ -452,17 +231,17 @@ fn Readout(view: View) -> impl IntoView {
                 let rows = view.readout();
                 match rows.is_empty() {
                     true => view! {
-                        <dt class="hint">"Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc."</dt>
+                        <p class="hint">{t("Point at a chart to read it, click to set a mark, drag to zoom. Keys: ← → Enter Esc.")}</p>
                     }
                         .into_any(),
-                    false => rows
-                        .into_iter()
-                        .map(|(label, value)| view! { <div><dt>{label}</dt> <dd>{value}</dd></div> })
-                        .collect_view()
-                        .into_any(),
+                    false => {
+                        let rows = rows.into_iter();
+                        let rows = rows.map(|(label, value)| view! { <div><dt>{label}</dt> <dd>{value}</dd></div> });
+                        view! { <dl>{rows.collect_view()}</dl> }.into_any()
+                    }
                 }
             }}
-        </dl>
+        </div>
     }
     .into_any()
 }

@@ -4,7 +4,9 @@ use crate::{
     adapters,
     app::{App, Area, Source},
 };
-use encoderscope::{adapter::Made, explain::grouped, format::Link as Way, profile::Profile};
+use encoderscope::{
+    adapter::Made, explain::grouped, format::Link as Way, language::t, profile::Profile, text,
+};
 use encoderscope_web::{
     browser::error_text,
     link::query,
@@ -65,26 +67,26 @@ impl Obstacle {
     /// What it is, and what to do about it.
     pub(crate) fn text(&self) -> String {
         let text = match self {
-            Self::NoApi => {
+            Self::NoApi => t(
                 "This browser has no Web Serial. Chrome, Edge or another Chromium browser on a \
-                 computer can read the encoder. The demo and the decoder work here."
-            }
-            Self::Insecure => {
+                   computer can read the encoder. The demo and the decoder work here.",
+            ),
+            Self::Insecure => t(
                 "This page came over plain http, where browsers give no access to serial ports. \
-                 Open it over https or from localhost. The demo and the decoder work here."
-            }
-            Self::Blocked => {
+                   Open it over https or from localhost. The demo and the decoder work here.",
+            ),
+            Self::Blocked => t(
                 "A policy blocks serial ports on this page: ask who manages this computer, or, \
-                 where the page stands in a frame, let the frame allow \u{201c}serial\u{201d}. The demo and the \
-                 decoder work here."
-            }
-            Self::NothingChosen => "No port was chosen.",
-            Self::NotPluggedIn => {
+                   where the page stands in a frame, let the frame allow \u{201c}serial\u{201d}. The \
+                   demo and the decoder work here.",
+            ),
+            Self::NothingChosen => t("No port was chosen."),
+            Self::NotPluggedIn => t(
                 "The adapter is not plugged in, or this page may no longer use it. Plug it in, or \
-                 choose or add a port."
-            }
+                   choose or add a port.",
+            ),
             Self::RateNotMade(nearest) => {
-                return format!(
+                return text!(
                     "The chip of this adapter does not make this baud rate: its driver would take \
                      about {}, where an encoder may hear a command instead of a request. Use an \
                      adapter that makes the rate.",
@@ -92,10 +94,10 @@ impl Obstacle {
                 );
             }
             Self::OtherSettings => {
-                "A link or another page has changed the settings. Connect to read with them."
+                t("A link or another page has changed the settings. Connect to read with them.")
             }
-            Self::BrokeDown => "The reader broke down. Connect again.",
-            Self::Other(text) => text,
+            Self::BrokeDown => t("The reader broke down. Connect again."),
+            Self::Other(text) => t(text),
         };
         text.into()
     }
@@ -297,7 +299,7 @@ pub(crate) fn AllTheSame() -> impl IntoView {
                         app.connect();
                     }
                 >
-                    "Connect all the same"
+                    {t("Connect all the same")}
                 </button>
             }
         })

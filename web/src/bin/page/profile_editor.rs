@@ -3,7 +3,9 @@
 use crate::app::App;
 use encoderscope::{
     format::{Format, rs485::Command},
+    language::{msg, t},
     profile::Profile,
+    text,
 };
 use leptos::prelude::*;
 
@@ -17,24 +19,24 @@ pub(crate) enum Offer {
 }
 
 /// What a parameter is called on the page.
-const fn label(name: &str) -> &'static str {
-    match name.as_bytes() {
-        b"angle-bits" => "Angle bits",
-        b"turns-bits" => "Turns bits",
-        b"status-bits" => "Status bits",
-        b"ack-bits" => "Ack bits",
-        b"command" => "Reply to",
-        b"address" => "Address",
-        b"code" => "Code",
-        b"align" => "Align",
-        b"frame-bits" => "Frame bits",
-        b"parity" => "Parity",
-        b"turns-code" => "Turns are",
-        b"status-active" => "Status active",
-        b"dialect" => "Dialect",
-        b"marker" => "Top bits",
-        b"baud" => "Baud",
-        b"justify" => "Justify",
+fn label(name: &str) -> &'static str {
+    match name {
+        "angle-bits" => t("Angle bits"),
+        "turns-bits" => t("Turns bits"),
+        "status-bits" => t("Status bits"),
+        "ack-bits" => t("Ack bits"),
+        "command" => t("Reply to"),
+        "address" => t("Address"),
+        "code" => t("Code"),
+        "align" => t("Align"),
+        "frame-bits" => t("Frame bits"),
+        "parity" => t("Parity"),
+        "turns-code" => t("Turns are"),
+        "status-active" => t("Status active"),
+        "dialect" => t("Dialect"),
+        "marker" => t("Top bits"),
+        "baud" => t("Baud"),
+        "justify" => t("Justify"),
         _ => "",
     }
 }
@@ -93,7 +95,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
         }
         match Profile::parse([("model", text.trim())]) {
             Ok(new) if offer == Offer::Serial && !new.is_serial() => {
-                fault.set(Some(format!(
+                fault.set(Some(text!(
                     "{} is clocked, which a USB adapter cannot: decode a pasted dump instead",
                     new.title()
                 )));
@@ -129,7 +131,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
     view! {
         <div class="profile">
             <label>
-                "Format"
+                {t("Format")}
                 <select
                     name="format"
                     prop:value=move || format.get().name()
@@ -139,7 +141,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
                         .map(|known| {
                             view! {
                                 <option value=known.name() selected=move || format.get() == *known>
-                                    {known.title()}
+                                    {t(known.title())}
                                 </option>
                             }
                         })
@@ -148,7 +150,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
             </label>
             {move || shown(false)}
             <label class="model">
-                "Or the order code"
+                {t("Or the order code")}
                 <input
                     name="model"
                     placeholder="MPP-20-30-A-24BM-R-N-A-M"
@@ -159,7 +161,7 @@ pub(crate) fn ProfileEditor(offer: Offer) -> impl IntoView {
             </label>
             {move || has_rare().then(|| view! {
                 <details>
-                    <summary>"More"</summary>
+                    <summary>{t("More")}</summary>
                     <div class="profile">{shown(true)}</div>
                 </details>
             })}
@@ -219,10 +221,43 @@ fn writes(name: &str, word: &str) -> bool {
     name == "command" && Command::parse(word).is_some_and(Command::changes_encoder)
 }
 
+/// Words of parameters that another language has its own words for, each with its parameter: gray
+/// is a code here.
+const WORDS: [&str; 15] = [
+    msg("align.right"),
+    msg("align.tree"),
+    msg("code.binary"),
+    msg("code.gray"),
+    msg("justify.left"),
+    msg("justify.right"),
+    msg("marker.first"),
+    msg("marker.none"),
+    msg("parity.even"),
+    msg("parity.none"),
+    msg("parity.odd"),
+    msg("status-active.high"),
+    msg("status-active.low"),
+    msg("turns-code.signed"),
+    msg("turns-code.unsigned"),
+];
+
+/// A word of a parameter in the language of the page.
+pub(crate) fn spoken_word(name: &str, word: &'static str) -> &'static str {
+    let known = WORDS.iter().find(|known| {
+        let (parameter, value) = known.split_once('.').unwrap_or_default();
+        parameter == name && value == word
+    });
+    // Where nothing else is said the name of the text comes back.
+    let said = known
+        .map(|known| t(known))
+        .filter(|said| !said.ends_with(word));
+    said.unwrap_or(word)
+}
+
 /// What a word is called on the page.
 fn title(name: &str, word: &'static str) -> String {
     match (name, Command::parse(word)) {
-        ("command", Some(command)) => format!("{word} · {}", command.title()),
-        _ => word.to_owned(),
+        ("command", Some(command)) => format!("{word} · {}", t(command.title())),
+        _ => spoken_word(name, word).to_owned(),
     }
 }

@@ -1,6 +1,7 @@
 //! Recordings: making them, what is there, replaying and comparing them; and the support file.
 
 mod compare;
+mod deleting;
 mod kept;
 mod recorder;
 mod remains;
@@ -16,12 +17,18 @@ use crate::{
     app::{App, Source},
     handout::save,
 };
+use deleting::Doomed;
+use encoderscope::{
+    language::{number, t},
+    text,
+};
 use encoderscope_web::{
     link::{profile, query},
-    message::{Answer, Digest, Kept, RecorderState, Story, Wish},
+    message::{Answer, BIT_CHANGES, Digest, Kept, RecorderState, Setting, Story, Wish},
 };
 use js_sys::Array;
 use leptos::prelude::*;
+use recorder::MARKER;
 use report::Report;
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::Blob;
@@ -32,12 +39,23 @@ pub(crate) struct Recordings {
     app: App,
     state: RwSignal<RecorderState>,
     list: RwSignal<Vec<Kept>>,
+    doomed: RwSignal<Option<Doomed>>,
+    /// It was doomed a moment ago: the focus is to go where that is undone.
+    pressed: StoredValue<bool>,
     /// What could not be done.
     fault: RwSignal<Option<String>>,
     story: RwSignal<Option<Story>>,
     /// The support file that is open.
     opened: RwSignal<Option<Report>>,
     comparison: RwSignal<Option<Box<[Digest; 2]>>>,
+    /// The speed that a replay goes on with when it is held.
+    speed: RwSignal<f64>,
+    /// The note that is being written, and how many there were.
+    note: RwSignal<String>,
+    notes: StoredValue<u32>,
+    /// A support file is being made, with what the user says of it.
+    hands: RwSignal<bool>,
+    remark: RwSignal<String>,
 }
 
 impl Recordings {
@@ -48,10 +66,17 @@ impl Recordings {
                 app,
                 state: RwSignal::new(RecorderState::default()),
                 list: RwSignal::new(Vec::new()),
+                doomed: RwSignal::new(None),
+                pressed: StoredValue::new(false),
                 fault: RwSignal::new(None),
                 story: RwSignal::new(None),
                 opened: RwSignal::new(None),
                 comparison: RwSignal::new(None),
+                speed: RwSignal::new(1.0),
+                note: RwSignal::new(String::new()),
+                notes: StoredValue::new(0),
+                hands: RwSignal::new(false),
+                remark: RwSignal::new(String::new()),
             };
             app.hear(move |parcel| made.receive(&parcel));
             made.send(&Wish::Recordings);
@@ -141,10 +166,42 @@ impl Recordings {
 /// Bytes in few digits.
 fn size_text(bytes: f64) -> String {
     match bytes {
-        1e9.. => format!("{:.2} GB", bytes / 1e9),
-        1e6.. => format!("{:.1} MB", bytes / 1e6),
-        1e3.. => format!("{:.0} kB", bytes / 1e3),
-        _ => format!("{bytes} bytes"),
+        1e9.. => text!("{} GB", number(format_args!("{:.2}", bytes / 1e9))),
+        1e6.. => text!("{} MB", number(format_args!("{:.1}", bytes / 1e6))),
+        1e3.. => text!("{} kB", format_args!("{:.0}", bytes / 1e3)),
+        _ => text!("{} bytes", bytes),
+    }
+}
+
+/// What was noted or happened, as it is written in English; what a user wrote stays as it is.
+fn noted(english: &str) -> String {
+    let (head, rest) = english.split_once(": ").unwrap_or((english, ""));
+    let number = english.strip_prefix(MARKER).map(str::parse::<u32>);
+    let is_ours = BIT_CHANGES.contains(&rest)
+        || Setting::KINDS.iter().any(|kind| kind.name() == head)
+        || head.starts_with("link ");
+    match (number, is_ours) {
+        (Some(Ok(number)), _) => format!("{}{number}", t(MARKER)),
+        (_, true) => retold(english),
+        _ => english.to_owned(),
+    }
+}
+
+/// What is written in English into a file, for people: as a whole, or part by part.
+fn retold(english: &str) -> String {
+    let whole = t(english);
+    if whole != english {
+        return whole.to_owned();
+    }
+    for mark in [": ", "; "] {
+        if let Some((before, behind)) = english.split_once(mark) {
+            return [&retold(before), mark, &retold(behind)].concat();
+        }
+    }
+    match (english.strip_prefix("link "), english.strip_suffix('.')) {
+        (Some(state), _) => text!("link {}", t(state)),
+        (None, Some(sentence)) => format!("{}.", t(sentence)),
+        (None, None) => english.to_owned(),
     }
 }
 

@@ -24,6 +24,7 @@ use book::{Leaf, Mark, Section, filled_link};
 use encoderscope::{
     calculator::{CALCULATORS, Calculator},
     format::Format,
+    language::t,
     profile::Profile,
 };
 use encoderscope_web::link::Fragment;
@@ -63,7 +64,7 @@ pub(crate) fn Reference() -> impl IntoView {
                 <Contents />
                 {move || book.leaf.get().has_profile().then(|| view! {
                     <section class="panel">
-                        <h2>"This encoder"</h2>
+                        <h2>{t("This encoder")}</h2>
                         <ProfileEditor offer=Offer::All />
                     </section>
                 })}
@@ -107,7 +108,7 @@ fn Contents() -> impl IntoView {
         };
         view! {
             <li>
-                <a href=href aria-current=move || is_open(known).then_some("page")>{known.title()}</a>
+                <a href=href aria-current=move || is_open(known).then_some("page")>{t(known.title())}</a>
                 {move || is_open(known).then(|| view! { <Parts /> })}
             </li>
         }
@@ -124,7 +125,7 @@ fn Contents() -> impl IntoView {
         (is_open(Format::Own)).then(|| {
             view! {
                 <li>
-                    <a href=book::link(&profile, None) aria-current="page">{profile.title()}</a>
+                    <a href=book::link(&profile, None) aria-current="page">{t(profile.title())}</a>
                     <Parts />
                 </li>
             }
@@ -136,7 +137,7 @@ fn Contents() -> impl IntoView {
     };
     let calculator = |calculator: &'static Calculator| {
         let there = Leaf::Calculator(calculator.name);
-        leaf(there, filled_link(there, &[]), calculator.title)
+        leaf(there, filled_link(there, &[]), t(calculator.title))
     };
     // On a narrow page the list would push the page itself out of sight: it is folded there.
     let list = NodeRef::<html::Details>::new();
@@ -160,18 +161,18 @@ fn Contents() -> impl IntoView {
     });
     view! {
         <details class="list" node_ref=list>
-            <summary>"Contents"</summary>
-            <div role="navigation" aria-label="Reference">
-                <h2>"The encoder in the hand"</h2>
+            <summary>{t("Contents")}</summary>
+            <div role="navigation" aria-label=t("Reference")>
+                <h2>{t("The encoder in the hand")}</h2>
                 <ul>{Topic::ALL.map(topic).into_view()}</ul>
-                <h2>"Calculators"</h2>
+                <h2>{t("Calculators")}</h2>
                 <ul>{CALCULATORS.iter().map(calculator).collect_view()}</ul>
-                <h2>"Frames"</h2>
+                <h2>{t("Frames")}</h2>
                 <ul>
-                    {leaf(Leaf::Overview, "#/reference".to_owned(), "All of it")}
+                    {leaf(Leaf::Overview, "#/reference".to_owned(), t("All of it"))}
                     {Format::ALL.iter().map(|known| page(*known)).collect_view()}
                     {own}
-                    {leaf(Leaf::Errata, book::errata_link(None), "Errors in the manuals")}
+                    {leaf(Leaf::Errata, book::errata_link(None), t("Errors in the manuals"))}
                 </ul>
             </div>
         </details>
@@ -228,5 +229,5 @@ fn Part(profile: Profile, section: Section, children: Children) -> impl IntoView
 /// A table in a box of its own, which scrolls where it is wider than the page.
 #[component]
 fn Scroll(label: String, children: Children) -> impl IntoView {
-    view! { <div class="wide" tabindex="0" role="region" aria-label=label>{children()}</div> }
+    view! { <div class="wide" tabindex="0" role="group" aria-label=label>{children()}</div> }
 }

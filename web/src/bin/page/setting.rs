@@ -4,7 +4,13 @@ use crate::{
     app::{App, summary},
     eeprom::{Eeprom, byte_text},
 };
-use encoderscope::{format::Format, profile::Profile, sequence::Change};
+use encoderscope::{
+    format::Format,
+    language::{number, t},
+    profile::Profile,
+    sequence::Change,
+    text,
+};
 use encoderscope_web::message::{Link, Progress, STILL, Setting, Shown, Snapshot, Wish};
 use leptos::prelude::*;
 
@@ -31,27 +37,27 @@ fn has_memory(profile: &Profile) -> bool {
     change.script(profile).is_some()
 }
 
-const fn title(setting: Setting) -> &'static str {
+fn title(setting: Setting) -> &'static str {
     match setting {
-        Setting::Zero => "Set zero",
-        Setting::ResetAngle => "Reset angle",
-        Setting::ResetTurns => "Reset turns",
-        Setting::ResetErrors => "Reset errors",
-        Setting::Address(_) => "Set address",
-        Setting::Memory { .. } => "Write EEPROM",
+        Setting::Zero => t("Set zero"),
+        Setting::ResetAngle => t("Reset angle"),
+        Setting::ResetTurns => t("Reset turns"),
+        Setting::ResetErrors => t("Reset errors"),
+        Setting::Address(_) => t("Set address"),
+        Setting::Memory { .. } => t("Write EEPROM"),
     }
 }
 
-const fn meaning(setting: Setting) -> &'static str {
+fn meaning(setting: Setting) -> &'static str {
     match setting {
-        Setting::Zero => "The present position becomes 0, turns and angle, and is stored.",
-        Setting::ResetAngle => "The present angle becomes 0 and is stored; the turns stay.",
-        Setting::ResetTurns => "The turns become 0; the angle stays.",
-        Setting::ResetErrors => "The errors that the encoder keeps are cleared.",
+        Setting::Zero => t("The present position becomes 0, turns and angle, and is stored."),
+        Setting::ResetAngle => t("The present angle becomes 0 and is stored; the turns stay."),
+        Setting::ResetTurns => t("The turns become 0; the angle stays."),
+        Setting::ResetErrors => t("The errors that the encoder keeps are cleared."),
         Setting::Address(_) => {
-            "Every device on the wire hears this and takes the new address: connect only one."
+            t("Every device on the wire hears this and takes the new address: connect only one.")
         }
-        Setting::Memory { .. } => "The byte is stored in the encoder and stays without power.",
+        Setting::Memory { .. } => t("The byte is stored in the encoder and stays without power."),
     }
 }
 
@@ -109,7 +115,7 @@ pub(crate) fn SettingPanel() -> impl IntoView {
         }
         Some(view! {
             <section class="panel setting">
-                <h2>"Set the encoder"</h2>
+                <h2>{t("Set the encoder")}</h2>
                 {match phase {
                     Phase::Ended(progress) => view! { <Ended progress=progress chosen=chosen /> }.into_any(),
                     Phase::Running(setting) => view! { <Running setting=setting progress=progress /> }.into_any(),
@@ -128,7 +134,7 @@ pub(crate) fn SettingPanel() -> impl IntoView {
 /// The encoder that a setting goes to.
 fn target(profile: &Profile) -> impl IntoView + use<> {
     let address = match profile.format {
-        Format::Bus => format!(", address {}", profile.address),
+        Format::Bus => text!(", address {}", profile.address),
         _ => String::new(),
     };
     view! { {summary(profile)} {address} }
@@ -153,11 +159,17 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
         rest && fits && app.snapshot.with(free)
     };
     let gate = move || match moved.get() {
-        None => ("lamp idle", "waiting for a second of readings".to_owned()),
-        Some(moved) if moved < STILL => ("lamp good", "the shaft stands still".to_owned()),
+        None => (
+            "lamp idle",
+            t("waiting for a second of readings").to_owned(),
+        ),
+        Some(moved) if moved < STILL => ("lamp good", t("the shaft stands still").to_owned()),
         Some(moved) => (
             "lamp bad",
-            format!("the shaft moves: {:.2}° within a second", moved * 360.0),
+            text!(
+                "the shaft moves: {}° within a second",
+                number(format_args!("{:.2}", moved * 360.0))
+            ),
         ),
     };
     let confirm = move |_| {
@@ -170,14 +182,14 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
     };
     view! {
         <p><b>{title(setting)}</b> ". " {meaning(setting)}</p>
-        <p class="hint">"Goes to " {move || target(&app.profile.get())} "."</p>
+        <p class="hint">{t("Goes to")} " " {move || target(&app.profile.get())} "."</p>
         {setting.needs_rest().then(|| view! {
-            <p class="hint">"Switch the drive off first. On a vertical axis secure the load: a drive that trusts the old zero may move."</p>
+            <p class="hint">{t("Switch the drive off first. On a vertical axis secure the load: a drive that trusts the old zero may move.")}</p>
             <p class=move || gate().0 data-testid="gate" data-value=move || still().to_string()>{move || gate().1}</p>
         })}
         {matches!(setting, Setting::Address(_)).then(|| view! {
             <label>
-                "New address, 0…31"
+                {t("New address, 0…31")}
                 <input inputmode="numeric" name="new-address" prop:value=move || address.get() on:input:target=move |event| address.set(event.target().value()) />
             </label>
         })}
@@ -189,24 +201,30 @@ fn Gate(setting: Setting, chosen: RwSignal<Option<Setting>>) -> impl IntoView {
         }}
         <div class="doors">
             <button class="primary" data-testid="zero-confirm" disabled=move || !ready() on:click=confirm>
-                {title(setting)} " now"
+                {text!("{} now", title(setting))}
             </button>
-            <button on:click=move |_| chosen.set(None)>"Cancel"</button>
+            <button on:click=move |_| chosen.set(None)>{t("Cancel")}</button>
         </div>
     }
 }
 
 /// What is to be written where, in words.
 fn memory_change(address: u8, held: Option<u8>, data: u8) -> String {
-    let held = held.map_or("what it holds".into(), byte_text);
-    format!("Cell 0x{address:02X}: {held} becomes {}", byte_text(data))
+    let held = held.map_or_else(|| t("what it holds").into(), byte_text);
+    text!(
+        "Cell {}: {} becomes {}",
+        format_args!("0x{address:02X}"),
+        held,
+        byte_text(data)
+    )
 }
 
 /// The position in words.
 fn position(shown: &Shown) -> String {
+    let degrees = number(format!("{:.4}°", shown.degrees));
     match shown.turns {
-        Some(turns) => format!("{turns} turns {:.4}°", shown.degrees),
-        None => format!("{:.4}°", shown.degrees),
+        Some(turns) => text!("{} {0|turn|turns} {}", turns, degrees),
+        None => degrees.to_string(),
     }
 }
 
@@ -223,15 +241,15 @@ fn Running(setting: Setting, progress: Memo<Option<Progress>>) -> impl IntoView 
     );
     let count = Memo::new(move |_| progress.get().and_then(|progress| progress.count));
     let hint = move || match total.get() {
-        0 => " — looking for other devices on the wire first.",
-        _ => " — nothing else is sent meanwhile.",
+        0 => t(" — looking for other devices on the wire first."),
+        _ => t(" — nothing else is sent meanwhile."),
     };
     view! {
         <p><b>{title(setting)}</b> {hint}</p>
-        <progress max=total value=done aria-label="commands done"></progress>
+        <progress max=total value=done aria-label=t("commands done")></progress>
         {move || count.get().map(counted)}
         <div class="doors">
-            <button on:click=move |_| app.wish(&Wish::StopSetting)>"Stop"</button>
+            <button on:click=move |_| app.wish(&Wish::StopSetting)>{t("Stop")}</button>
         </div>
     }
 }
@@ -240,7 +258,7 @@ fn Running(setting: Setting, progress: Memo<Option<Progress>>) -> impl IntoView 
 fn counted(count: u8) -> impl IntoView {
     view! {
         <p class="count" data-testid="zero-count" data-value=count.to_string()>
-            {count} <small>" of 10 counted by the encoder"</small>
+            {count} <small>{t(" of 10 counted by the encoder")}</small>
         </p>
     }
 }
@@ -287,12 +305,12 @@ fn Ended(progress: Progress, chosen: RwSignal<Option<Setting>>) -> impl IntoView
             <p class=tone data-testid="zero-outcome" data-value=changed>{outcome.text}</p>
             {count.map(counted)}
             <dl class="counts">
-                {before.map(|before| view! { <dt>"before"</dt> <dd data-testid="setting-before">{before}</dd> })}
-                <dt>"now"</dt>
+                {before.map(|before| view! { <dt>{t("before")}</dt> <dd data-testid="setting-before">{before}</dd> })}
+                <dt>{t("now")}</dt>
                 <dd data-testid="setting-now">{now}</dd>
             </dl>
             <div class="doors">
-                <button class="primary" on:click=again>"Done"</button>
+                <button class="primary" on:click=again>{t("Done")}</button>
             </div>
         }
     })

@@ -1,7 +1,11 @@
 //! The standstill panel: how much the angle of a shaft at rest varies.
 
 use crate::app::App;
-use encoderscope::explain::grouped;
+use encoderscope::{
+    explain::grouped,
+    language::{self, t},
+    text,
+};
 use encoderscope_web::{message::STILL, plot::Rest};
 use leptos::prelude::*;
 
@@ -28,11 +32,11 @@ impl Shaft {
         }
     }
 
-    const fn says(&self) -> &'static str {
+    fn says(&self) -> &'static str {
         match self {
-            Self::Unknown => "needs a second of readings",
-            Self::Moves => "the shaft moves",
-            Self::Rests(_) => "last second",
+            Self::Unknown => t("needs a second of readings"),
+            Self::Moves => t("the shaft moves"),
+            Self::Rests(_) => t("last second"),
         }
     }
 
@@ -67,14 +71,16 @@ pub(crate) fn Standstill() -> impl IntoView {
             <dt>{label}</dt>
             <dd data-testid=testid data-value=move || value.get().map(|value| value.to_string())>
                 {move || match value.get() {
-                    Some(counts) => format!("{} counts", number(counts, places)),
+                    Some(counts) => text!("{} counts", number(counts, places)),
                     None => "–".into(),
                 }}
             </dd>
             <dt></dt>
             <dd class="arc">
                 {move || match value.get() {
-                    Some(counts) => format!("{:.2}″", counts * scale()),
+                    Some(counts) => {
+                        language::number(format_args!("{:.2}″", counts * scale())).to_string()
+                    }
                     None => "–".into(),
                 }}
             </dd>
@@ -86,10 +92,10 @@ pub(crate) fn Standstill() -> impl IntoView {
             data-testid="standstill"
             data-value=move || shaft.with(Shaft::name)
         >
-            <h2>"Standstill" <span>{move || shaft.with(Shaft::says)}</span></h2>
+            <h2>{t("Standstill")} <span>{move || shaft.with(Shaft::says)}</span></h2>
             <dl>
                 {row("σ", "standstill-sigma", |rest| rest.sigma, 2)}
-                {row("peak to peak", "standstill-peak", |rest| rest.peak_to_peak, 0)}
+                {row(t("peak to peak"), "standstill-peak", |rest| rest.peak_to_peak, 0)}
             </dl>
             <div><Histogram shaft=shaft /></div>
         </section>
@@ -101,7 +107,7 @@ pub(crate) fn Standstill() -> impl IntoView {
 fn number(value: f64, places: usize) -> String {
     match value >= 1_000.0 {
         true => grouped(value.round() as u64),
-        false => format!("{value:.places$}"),
+        false => language::number(format_args!("{value:.places$}")).to_string(),
     }
 }
 
@@ -136,13 +142,13 @@ fn Histogram(shaft: Memo<Shaft>) -> impl IntoView {
         grouped((side() as f64 * width) as u64)
     };
     view! {
-        <svg class="histogram" viewBox="0 0 100 40" preserveAspectRatio="none" role="img" aria-label="Distribution of the readings around their mean">
+        <svg class="histogram" viewBox="0 0 100 40" preserveAspectRatio="none" role="img" aria-label=t("Distribution of the readings around their mean")>
             {drawn}
             <line x1="0" x2="100" y1="40" y2="40" />
         </svg>
         <p class="reach" aria-hidden="true">
             <span>"−" {reach}</span>
-            <span>"mean"</span>
+            <span>{t("mean")}</span>
             <span>"+" {reach}</span>
         </p>
     }

@@ -2,7 +2,13 @@
 //! stream and ticks what it sees (IP-75, 5.1.1).
 
 use crate::app::{App, Source};
-use encoderscope::{format::Format, procedure::HOLD, session::Micros};
+use encoderscope::{
+    format::Format,
+    language::{msg, t},
+    procedure::HOLD,
+    session::Micros,
+    text,
+};
 use encoderscope_web::{
     browser::now,
     message::{Link, Shown, Snapshot, Supply, Wish},
@@ -96,20 +102,20 @@ impl Task {
         }
     }
 
-    const fn wire(&self) -> &'static str {
+    fn wire(&self) -> &'static str {
         match self.input {
-            Input::Set => "ZERO SET (violet)",
-            Input::Reset => "ZERO RESET (yellow)",
+            Input::Set => t("ZERO SET (violet)"),
+            Input::Reset => t("ZERO RESET (yellow)"),
         }
     }
 
     /// What the last step waits for.
-    const fn sign(&self) -> &'static str {
+    fn sign(&self) -> &'static str {
         match (self.input, self.before.zero_default.is_some()) {
-            (Input::Set, true) => "ZPD becomes 0 and the angle 0",
-            (Input::Set, false) => "The angle becomes 0",
-            (Input::Reset, true) => "ZPD becomes 1",
-            (Input::Reset, false) => "The angle is the factory's again",
+            (Input::Set, true) => t("ZPD becomes 0 and the angle 0"),
+            (Input::Set, false) => t("The angle becomes 0"),
+            (Input::Reset, true) => t("ZPD becomes 1"),
+            (Input::Reset, false) => t("The angle is the factory's again"),
         }
     }
 
@@ -119,37 +125,43 @@ impl Task {
             (Ending::Made, Input::Set) => (
                 "lamp good",
                 "yes",
-                "The zero is stored. Take the wire off 0 V.".into(),
+                t("The zero is stored. Take the wire off 0 V.").into(),
             ),
             (Ending::Made, Input::Reset) => (
                 "lamp good",
                 "yes",
-                "The factory's zero is back. Take the wire off 0 V.".into(),
+                t("The factory's zero is back. Take the wire off 0 V.").into(),
             ),
             (Ending::NotMade, _) => {
                 let sign = match self.before.zero_default {
                     Some(_) => "ZPD",
-                    None => "The angle",
+                    None => t("The angle"),
                 };
-                let text = format!(
-                    "{sign} does not show it after 4 s: {wire} was not at 0 V when the supply came on."
+                let text = text!(
+                    "{} does not show it after 4 s: {} was not at 0 V when the supply came on.",
+                    sign,
+                    wire
                 );
                 ("lamp bad", "no", text)
             }
             (Ending::Unclear, _) => (
                 "lamp warn",
                 "unknown",
-                "It looks as it did before, so nothing shows whether the input acted.".into(),
+                t("It looks as it did before, so nothing shows whether the input acted.").into(),
             ),
         }
     }
 }
 
+/// The task that somebody is at.
+#[derive(Clone, Copy)]
+struct Begun(RwSignal<Option<Task>>);
+
 /// The checklist; only for encoders that have the wires.
 #[component]
 pub(crate) fn ZeroWire() -> impl IntoView {
     let app = expect_context::<App>();
-    let task = RwSignal::new(None::<Task>);
+    let Begun(task) = app.keep(|| Begun(RwSignal::new(None)));
     let fits = Memo::new(move |_| matches!(app.profile.get().format, Format::Asi1 | Format::Asi4));
     Effect::new(move || {
         app.snapshot.track();
@@ -178,17 +190,17 @@ pub(crate) fn ZeroWire() -> impl IntoView {
     move || {
         fits.get().then(|| view! {
             <section class="panel setting">
-                <h2>"Zero by wire"</h2>
+                <h2>{t("Zero by wire")}</h2>
                 <Stored />
                 {move || match task.get() {
                     Some(task_now) => view! { <Checklist now=task_now task=task /> }.into_any(),
                     None => view! {
                         <div class="doors">
                             <button data-testid="wire-set" disabled=move || !reading.get() on:click=move |_| begin(Input::Set)>
-                                "Set zero…"
+                                {t("Set zero…")}
                             </button>
                             <button data-testid="wire-reset" disabled=move || !reading.get() on:click=move |_| begin(Input::Reset)>
-                                "Factory zero…"
+                                {t("Factory zero…")}
                             </button>
                         </div>
                     }
@@ -209,9 +221,9 @@ fn Stored() -> impl IntoView {
         reading.and_then(|shown| shown.zero_default)
     });
     let text = move || match stored.get() {
-        Some(true) => "ZPD 1: the factory's zero",
-        Some(false) => "ZPD 0: a zero of your own is stored",
-        None => "This stream does not say whether a zero of your own is stored.",
+        Some(true) => t("ZPD 1: the factory's zero"),
+        Some(false) => t("ZPD 0: a zero of your own is stored"),
+        None => t("This stream does not say whether a zero of your own is stored."),
     };
     view! {
         <p data-testid="zero-default" data-value=move || stored.get().map(|stored| u8::from(stored).to_string())>{text}</p>
@@ -229,17 +241,17 @@ fn Checklist(now: Task, task: RwSignal<Option<Task>>) -> impl IntoView {
     };
     // While the supply is off the user ties the wire, which nobody sees, and switches on.
     let state = move |step: usize| match (step, now.stage) {
-        (3, Stage::Ended(Ending::NotMade | Ending::Unclear)) => "not seen",
-        (1, Stage::Held(_)) => "done",
+        (3, Stage::Ended(Ending::NotMade | Ending::Unclear)) => msg("not seen"),
+        (1, Stage::Held(_)) => msg("done"),
         (step, _) if step < stage => "done",
-        (2, Stage::Off) => "now",
+        (2, Stage::Off) => msg("now"),
         (step, _) if step == stage => "now",
-        _ => "later",
+        _ => msg("later"),
     };
     let steps = [
-        "Switch the supply off".to_owned(),
-        format!("Tie {} to 0 V", now.wire()),
-        "Switch the supply on and hold for 3 s".to_owned(),
+        t("Switch the supply off").to_owned(),
+        text!("Tie {} to 0 V", now.wire()),
+        t("Switch the supply on and hold for 3 s").to_owned(),
         now.sign().to_owned(),
     ];
     let steps = steps.into_iter().enumerate().map(move |(step, text)| {
@@ -253,7 +265,7 @@ fn Checklist(now: Task, task: RwSignal<Option<Task>>) -> impl IntoView {
         view! {
             <li class=tone data-testid="wire-step" data-state=state>
                 <span>{step + 1} ". " {text}</span>
-                <span class="when">{state}</span>
+                <span class="when">{t(state)}</span>
             </li>
         }
     });
@@ -263,7 +275,7 @@ fn Checklist(now: Task, task: RwSignal<Option<Task>>) -> impl IntoView {
     };
     let over = ended.is_some();
     view! {
-        <p>"Hold the shaft still, and leave the port open."</p>
+        <p>{t("Hold the shaft still, and leave the port open.")}</p>
         <ol class="steps">{steps.collect_view()}</ol>
         {match now.stage {
             Stage::Held(since) => Some(view! { <Held since=since /> }),
@@ -273,7 +285,7 @@ fn Checklist(now: Task, task: RwSignal<Option<Task>>) -> impl IntoView {
             <p class=tone data-testid="zero-outcome" data-value=value role="status">{text}</p>
         })}
         <div class="doors">
-            <button class:primary=over on:click=move |_| task.set(None)>{if over { "Done" } else { "Cancel" }}</button>
+            <button class:primary=over on:click=move |_| task.set(None)>{if over { t("Done") } else { t("Cancel") }}</button>
         </div>
     }
 }
@@ -288,7 +300,7 @@ fn Held(since: Micros) -> impl IntoView {
     });
     view! {
         <p class="count" data-testid="wire-hold" data-value=move || seconds.get().to_string()>
-            {seconds} <small>" of 3 seconds held"</small>
+            {seconds} <small>{t(" of 3 seconds held")}</small>
         </p>
     }
 }
@@ -298,17 +310,17 @@ fn Held(since: Micros) -> impl IntoView {
 fn DemoSupply() -> impl IntoView {
     let app = expect_context::<App>();
     let switches = [
-        (Supply::Off, "demo-power-off", "Demo supply off"),
-        (Supply::On, "demo-power-on", "On"),
+        (Supply::Off, "demo-power-off", t("Demo supply off")),
+        (Supply::On, "demo-power-on", t("On")),
         (
             Supply::OnWithSet,
             "demo-power-set",
-            "On with ZERO SET at 0 V",
+            t("On with ZERO SET at 0 V"),
         ),
         (
             Supply::OnWithReset,
             "demo-power-reset",
-            "On with ZERO RESET at 0 V",
+            t("On with ZERO RESET at 0 V"),
         ),
     ];
     let buttons = switches.map(|(supply, testid, text)| {

@@ -1,6 +1,7 @@
 //! A recording on its way into a file of the user's.
 
 use crate::browser::{error_text, pause};
+use encoderscope::language::msg;
 use js_sys::Uint8Array;
 use std::cell::RefCell;
 use wasm_bindgen::{JsCast, JsValue};
@@ -58,7 +59,7 @@ impl Copy {
             let mut queue = self.queue.borrow_mut();
             queue.bytes = Vec::new();
             let (_, message) = error_text(&error);
-            queue.fault = Some(format!("The copy on disk has failed: {message}"));
+            queue.fault = Some(format!("{}: {message}", msg("The copy on disk has failed")));
         }
     }
 

@@ -10,6 +10,7 @@ use crate::{
     tally::Tally,
     transcript::Transcript,
 };
+use encoderscope::language::t;
 
 /// Points of the angle over time.
 const COLUMNS: u32 = 800;
@@ -26,7 +27,7 @@ impl Engine {
                     let both = Box::new([one, other]);
                     engine.hand(Answer::Comparison(both), None);
                 }
-                _ => engine.fault("One of them cannot be read."),
+                _ => engine.fault(t("One of them cannot be read.")),
             }
         });
     }

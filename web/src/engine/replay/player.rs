@@ -3,7 +3,10 @@
 use super::PIECE;
 use crate::{
     browser,
-    engine::run::{Run, Wire},
+    engine::{
+        run::{Run, Wire},
+        unfit,
+    },
     link,
     message::{Counts, Link, Replay},
     tally::Tally,
@@ -322,14 +325,14 @@ impl Player {
         }
         self.line = Some(line);
         let made = self.profile().map(|profile| {
-            let profile = link::profile(profile).map_err(|error| error.to_string())?;
-            let decoder = Decoder::new(profile).map_err(|error| error.to_string())?;
-            Session::following(decoder).map_err(|refusal| refusal.to_string())
+            let made = link::profile(profile).and_then(Decoder::new).ok();
+            let session = made.and_then(|decoder| Session::following(decoder).ok());
+            session.ok_or_else(|| unfit(profile))
         });
         stage.rest(at);
         (*stage.run, *stage.link) = match made {
             None => (None, Link::Searching),
-            Some(Err(reason)) => (None, Link::Unfit { reason }),
+            Some(Err(link)) => (None, link),
             Some(Ok(session)) => {
                 stage.tally.start(at, session.decoder().clone());
                 let run = Run::reading(Wire::Replay, session, 0, at);

@@ -1,7 +1,7 @@
 //! What the input may be; a click reads it that way.
 
-use crate::{app::App, desk::Choice};
-use encoderscope::{format::Format, profile::Profile};
+use crate::{app::App, desk::Choice, profile_editor::spoken_word};
+use encoderscope::{format::Format, language::t, profile::Profile, text};
 use encoderscope_web::{
     link,
     message::{CandidateView, NearView},
@@ -13,25 +13,41 @@ const BEST: usize = 3;
 
 /// A profile in a line.
 pub(super) fn describe(profile: &Profile) -> String {
-    let mut text = format!("{}, {} bit", profile.title(), profile.angle_bits);
+    let mut text = text!("{}, {} bit", profile.title(), profile.angle_bits);
     if profile.turns_bits > 0 {
-        text += &format!(", {} bit turns", profile.turns_bits);
+        text += &text!(", {} bit turns", profile.turns_bits);
     }
     match profile.format {
-        Format::Rs485 => text += &format!(", reply to ‘{}’", profile.command.letter()),
-        Format::BissC => text += &format!(", {} status bits", profile.status_bits),
-        Format::Bus => text += &format!(", device 0x{:02X}", profile.address),
+        Format::Rs485 => text += &text!(", reply to ‘{}’", profile.command.letter()),
+        Format::BissC => text += &text!(", {} status bits", profile.status_bits),
+        Format::Bus => text += &text!(", device {}", format_args!("0x{:02X}", profile.address)),
         Format::SsiTree => {
-            text += &format!(
+            text += &text!(
                 ", {}, {}, {} clocks",
-                profile.code.name(),
-                profile.align.name(),
+                spoken_word("code", profile.code.name()),
+                spoken_word("align", profile.align.name()),
                 profile.frame_bits
             );
         }
         _ => {}
     }
     text
+}
+
+/// Text with its powers, `2^24`, as they are printed.
+fn raised(text: &str) -> String {
+    let mut is_power = false;
+    let letters = text.chars().filter_map(|letter| {
+        is_power = letter == '^' || is_power && letter.is_ascii_digit();
+        match (letter, letter.to_digit(10)) {
+            ('^', _) => None,
+            (_, Some(digit)) if is_power => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹']
+                .get(digit as usize)
+                .copied(),
+            _ => Some(letter),
+        }
+    });
+    letters.collect()
 }
 
 /// Reads the input with a profile, a mistake of its capture undone where there is one.
@@ -59,7 +75,7 @@ pub(super) fn Nearby() -> impl IntoView {
             <li data-testid="near" data-value=near.profile>
                 {near.text}
                 " "
-                <button class="quiet" on:click=choose>"Read it so"</button>
+                <button class="quiet" on:click=choose>{t("Read it so")}</button>
             </li>
         })
     };
@@ -68,7 +84,7 @@ pub(super) fn Nearby() -> impl IntoView {
         (!near.is_empty() && !app.desk().is_empty()).then(|| {
             view! {
                 <div class="nearby" role="status">
-                    <p>"These frames fit better:"</p>
+                    <p>{t("These frames fit better:")}</p>
                     <ul>{near.into_iter().filter_map(row).collect_view()}</ul>
                 </div>
             }
@@ -96,8 +112,8 @@ pub(super) fn Candidates() -> impl IntoView {
                 on:click=choose
             >
                 <b>{describe(&profile)}</b>
-                <span class=format!("verdict {}", candidate.verdict)>{candidate.verdict.clone()}</span>
-                <small>{candidate.evidence.join("; ")}</small>
+                <span class=format!("verdict {}", candidate.verdict)>{t(&candidate.verdict).to_owned()}</span>
+                <small>{raised(&candidate.evidence.join("; "))}</small>
             </button>
         })
     };
@@ -114,17 +130,17 @@ pub(super) fn Candidates() -> impl IntoView {
         (!found.is_empty() || judging || nothing).then(|| {
             view! {
                 <div class="candidates">
-                    <h2>"What it is"</h2>
+                    <h2>{t("What it is")}</h2>
                     {nothing.then(|| view! {
                         <p class="hint" data-testid="no-candidate">{match reads {
-                            true => "Nothing in these frames tells the formats apart: choose the one of your encoder below. More frames, of a turning shaft, may tell.",
-                            false => "No known format fits. More frames, or frames of a turning shaft, may tell.",
+                            true => t("Nothing in these frames tells the formats apart: choose the one of your encoder below. More frames, of a turning shaft, may tell."),
+                            false => t("No known format fits. More frames, or frames of a turning shaft, may tell."),
                         }}</p>
                     })}
-                    {judging.then(|| view! { <p class="hint">"Comparing with every format…"</p> })}
+                    {judging.then(|| view! { <p class="hint">{t("Comparing with every format…")}</p> })}
                     {found.into_iter().take(some).filter_map(row).collect_view()}
                     {(more && !all.get()).then(|| view! {
-                        <button class="quiet" on:click=move |_| all.set(true)>"More"</button>
+                        <button class="quiet" on:click=move |_| all.set(true)>{t("More")}</button>
                     })}
                 </div>
             }

@@ -4,6 +4,7 @@ use crate::{
     app::App,
     plot::{Canvas, Chart},
 };
+use encoderscope::language::t;
 use encoderscope_web::message::ToDesk;
 use leptos::{html, prelude::*};
 use std::rc::Rc;
@@ -93,10 +94,10 @@ pub(super) fn AngleChart() -> impl IntoView {
     });
     view! {
         <section class="panel angle-chart" hidden=move || total.get() < 3>
-            <h2>"Angle" <span>"over the rows: drag to zoom, click to go there"</span></h2>
-            <div class="chart" data-testid="angle-chart" tabindex="0" aria-label="Angle over the rows" node_ref=place></div>
+            <h2>{t("Angle")} <span>{t("over the rows: drag to zoom, click to go there")}</span></h2>
+            <div class="chart" data-testid="angle-chart" tabindex="0" role="group" aria-label=t("Angle over the rows") node_ref=place></div>
             {move || zoom.get().map(|_| view! {
-                <button class="quiet" on:click=move |_| zoom.set(None)>"show all"</button>
+                <button class="quiet" on:click=move |_| zoom.set(None)>{t("show all")}</button>
             })}
         </section>
     }

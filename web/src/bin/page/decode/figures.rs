@@ -1,13 +1,18 @@
 //! What the rows come to.
 
-use super::plural;
+use super::count;
 use crate::app::App;
-use encoderscope::explain::{grouped, grouped_signed};
+use encoderscope::{
+    explain::grouped_signed,
+    language::{self, msg, t},
+    text,
+};
 use encoderscope_web::message::{Count, Overview};
 use leptos::prelude::*;
 
 fn number(value: f64, places: usize) -> String {
-    format!("{value:.places$}").replace('-', "−")
+    let text = format!("{value:.places$}").replace('-', "−");
+    language::number(text).to_string()
 }
 
 fn range(low: &str, high: &str) -> String {
@@ -17,27 +22,28 @@ fn range(low: &str, high: &str) -> String {
     }
 }
 
-/// Named figures of an overview.
+/// Named figures of an overview, with their names in English.
 pub(super) fn figures(overview: &Overview) -> Vec<(&'static str, String)> {
     let mut all = Vec::new();
     if let Some((low, high)) = overview.angle {
-        all.push(("angle", range(&number(low, 3), &number(high, 3)) + "°"));
+        all.push((msg("angle"), range(&number(low, 3), &number(high, 3)) + "°"));
     }
     if let Some((low, high)) = overview.turns {
         let text = |value: f64| grouped_signed(value as i64);
-        all.push(("turns", range(&text(low), &text(high))));
+        all.push((msg("turns"), range(&text(low), &text(high))));
     }
     if let Some((low, high)) = overview.speed {
-        all.push(("speed", range(&number(low, 3), &number(high, 3)) + " rev/s"));
+        let range = range(&number(low, 3), &number(high, 3));
+        all.push((msg("speed"), text!("{} rev/s", range)));
     }
     if let Some((low, high)) = overview.temperature {
         all.push((
-            "temperature",
+            msg("temperature"),
             range(&number(low, 1), &number(high, 1)) + " °C",
         ));
     }
     if let Some(duration) = overview.duration.filter(|duration| *duration > 0.0) {
-        all.push(("time", number(duration, 3) + " s"));
+        all.push((msg("time"), text!("{} s", number(duration, 3))));
     }
     all
 }
@@ -52,12 +58,12 @@ pub(super) fn Figures() -> impl IntoView {
             skipped,
             ..
         } = desk.overview.get();
-        let mut text = format!("{} good", grouped((frames - bad) as u64));
+        let mut text = text!("{} good", count(frames - bad));
         if bad > 0.0 {
-            text += &format!(" · {} bad", grouped(bad as u64));
+            text += &text!(" · {} bad", count(bad));
         }
         if skipped > 0.0 {
-            text += &format!(" · {} skipped", plural(skipped, "byte"));
+            text += &text!(" · {} {0|byte|bytes} skipped", count(skipped));
         }
         text
     };
@@ -66,15 +72,15 @@ pub(super) fn Figures() -> impl IntoView {
                        of: fn(&Overview) -> &Vec<Count>| {
         let list = desk.overview.with(|overview| of(overview).clone());
         (!list.is_empty()).then(|| {
-            let items = list.into_iter().map(|count| {
+            let items = list.into_iter().map(|item| {
                 let go = move |_| {
-                    desk.chosen.set(Some(count.first));
-                    desk.send(encoderscope_web::message::ToDesk::Place(count.first));
+                    desk.chosen.set(Some(item.first));
+                    desk.send(encoderscope_web::message::ToDesk::Place(item.first));
                 };
                 view! {
                     <li>
-                        <button class="quiet" title="Go to the first" data-testid="count" on:click=go>
-                            <span class="number">{grouped(count.count as u64)}</span> " × " {count.name}
+                        <button class="quiet" title=t("Go to the first") data-testid="count" on:click=go>
+                            <span class="number">{count(item.count)}</span> " × " {item.name}
                         </button>
                     </li>
                 }
@@ -89,22 +95,22 @@ pub(super) fn Figures() -> impl IntoView {
     };
     view! {
         <section class="panel sums" data-testid="figures">
-            <h2>{move || plural(desk.overview.get().frames, "frame")} <span>{heading}</span></h2>
+            <h2>{move || text!("{} {0|frame|frames}", count(desk.overview.get().frames))} <span>{heading}</span></h2>
             <dl>
                 {move || figures(&desk.overview.get()).into_iter().map(|(name, value)| view! {
-                    <div><dt>{name}</dt><dd class="number" data-figure=name>{value}</dd></div>
+                    <div><dt>{t(name)}</dt><dd class="number" data-figure=name>{value}</dd></div>
                 }).collect_view()}
             </dl>
             <div class="tallies">
-                {move || counts("Faults", "bad", |overview| &overview.faults)}
-                {move || counts("Timing", "bad", |overview| &overview.timing)}
-                {move || counts("Not in a frame", "dim", |overview| &overview.skips)}
-                {move || counts("The encoder says", "warn", |overview| &overview.conditions)}
+                {move || counts(t("Faults"), "bad", |overview| &overview.faults)}
+                {move || counts(t("Timing"), "bad", |overview| &overview.timing)}
+                {move || counts(t("Not in a frame"), "dim", |overview| &overview.skips)}
+                {move || counts(t("The encoder says"), "warn", |overview| &overview.conditions)}
             </div>
             {move || {
                 let lost = desk.overview.get().lost;
                 (lost > 0.0).then(|| view! {
-                    <p class="hint">{format!("{} more are not kept: the table is full.", plural(lost, "row"))}</p>
+                    <p class="hint">{text!("{} {0|row|rows} more are not kept: the table is full.", count(lost))}</p>
                 })
             }}
         </section>

@@ -3,6 +3,7 @@
 use crate::{app::App, profile_editor::Offer};
 use encoderscope::{
     format::own::{Draft, Framing, Kind, SHIPPED, Written},
+    language::{msg, t},
     layout::Active,
     profile::Profile,
 };
@@ -10,10 +11,10 @@ use leptos::prelude::*;
 
 /// How frames can come, with a word for people.
 const WAYS: [(&str, &str); 4] = [
-    ("line", "clocked word (SSI)"),
+    ("line", msg("clocked word (SSI)")),
     ("biss", "BiSS-C"),
-    ("stream", "serial, unasked"),
-    ("poll:31", "serial, answers a byte"),
+    ("stream", msg("serial, unasked")),
+    ("poll:31", msg("serial, answers a byte")),
 ];
 
 #[component]
@@ -61,7 +62,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
             text.splitn(3, ':').nth(2).unwrap_or_default().to_owned()
         };
         let kinds = Kind::ALL.iter().map(|kind| {
-            view! { <option value=kind.name() selected=*kind == draft.kind>{kind.name()}</option> }
+            view! { <option value=kind.name() selected=*kind == draft.kind>{t(kind.name())}</option> }
         });
         let kind = move |name: String| {
             let known = Kind::ALL.iter().find(|kind| kind.name() == name);
@@ -99,10 +100,10 @@ pub(super) fn OwnEditor() -> impl IntoView {
         let name = draft.name.unwrap_or_default();
         view! {
             <tr data-testid="own-field">
-                <td><select aria-label="Kind" on:change:target=move |event| kind(event.target().value())>{kinds.collect_view()}</select></td>
+                <td><select aria-label=t("Kind") on:change:target=move |event| kind(event.target().value())>{kinds.collect_view()}</select></td>
                 <td>
                     <input
-                        aria-label="Bits"
+                        aria-label=t("Bits")
                         inputmode="numeric"
                         prop:value=width.to_string()
                         on:change:target=move |event| {
@@ -111,19 +112,19 @@ pub(super) fn OwnEditor() -> impl IntoView {
                         }
                     />
                 </td>
-                <td><input aria-label="Name" prop:value=name on:change:target=move |event| { let name = option(&event.target().value()); set(&|field| field.name.clone_from(&name)); } /></td>
+                <td><input aria-label=t("Name") prop:value=name on:change:target=move |event| { let name = option(&event.target().value()); set(&|field| field.name.clone_from(&name)); } /></td>
                 <td>
                     <input
                         type="checkbox"
-                        aria-label="Active low"
+                        aria-label=t("Active low")
                         prop:checked=active == Active::Low
                         on:change=move |_| set(&|field| field.active = match field.active { Active::Low => Active::High, Active::High => Active::Low })
                     />
                 </td>
-                <td><input aria-label="Details" data-testid="own-details" prop:value=rest on:change:target=move |event| details(event.target().value()) /></td>
+                <td><input aria-label=t("Details") data-testid="own-details" prop:value=rest on:change:target=move |event| details(event.target().value()) /></td>
                 <td>
-                    <button class="quiet" aria-label="Up" on:click=move |_| change(&|written| if index > 0 { written.fields.swap(index, index - 1) })>"↑"</button>
-                    <button class="quiet" aria-label="Remove" on:click=move |_| change(&|written| { written.fields.remove(index); })>"×"</button>
+                    <button class="quiet" aria-label=t("Up") on:click=move |_| change(&|written| if index > 0 { written.fields.swap(index, index - 1) })>"↑"</button>
+                    <button class="quiet" aria-label=t("Remove") on:click=move |_| change(&|written| { written.fields.remove(index); })>"×"</button>
                 </td>
             </tr>
         }
@@ -138,11 +139,13 @@ pub(super) fn OwnEditor() -> impl IntoView {
         Ok(framing) => change(&|written| written.framing = framing),
         Err(why) => fault.set(Some(why)),
     };
+    let titles = [t("Kind"), t("Bits"), t("Name"), t("low"), t("Details")]
+        .map(|title| view! { <th>{title.to_lowercase()}</th> });
     view! {
         <div class="own" data-testid="own">
             <div class="profile">
                 <label>
-                    "Start from"
+                    {t("Start from")}
                     <select data-testid="own-shipped" on:change:target=move |event| choose(event.target().value())>
                         <option value="" selected=move || SHIPPED.iter().all(|shipped| shipped.name != short())>"…"</option>
                         {SHIPPED.iter().map(|shipped| {
@@ -152,7 +155,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
                     </select>
                 </label>
                 <label>
-                    "Name"
+                    {t("Name")}
                     <input
                         data-testid="own-title"
                         prop:value=move || written.get().map(|written| written.title).unwrap_or_default()
@@ -160,14 +163,14 @@ pub(super) fn OwnEditor() -> impl IntoView {
                     />
                 </label>
                 <label>
-                    "Frames come as"
+                    {t("Frames come as")}
                     <select on:change:target=move |event| {
                         if let Ok(framing) = event.target().value().parse::<Framing>() {
                             change(&|written| written.framing = framing);
                         }
                     }>
                         {WAYS.map(|(way, title)| view! {
-                            <option value=way selected=move || written.get().is_some_and(|written| written.framing.to_string().split(':').next() == way.split(':').next())>{title}</option>
+                            <option value=way selected=move || written.get().is_some_and(|written| written.framing.to_string().split(':').next() == way.split(':').next())>{t(title)}</option>
                         }).into_view()}
                     </select>
                 </label>
@@ -175,7 +178,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
             {move || match written.get().map(|written| written.framing) {
                 Some(Framing::Poll(byte)) => Some(view! {
                     <label class="poll">
-                        "It answers to the byte"
+                        {t("It answers to the byte")}
                         <input
                             data-testid="own-poll"
                             prop:value=format!("{byte:02X}")
@@ -186,16 +189,16 @@ pub(super) fn OwnEditor() -> impl IntoView {
                 _ => None,
             }}
             <table>
-                <thead><tr><th>"kind"</th><th>"bits"</th><th>"name"</th><th>"low"</th><th>"details"</th><th></th></tr></thead>
+                <thead><tr>{titles.into_view()}<th></th></tr></thead>
                 <tbody>
                     {move || written.get().map(|written| {
                         written.fields.into_iter().enumerate().map(|(index, draft)| field(index, draft)).collect_view()
                     })}
                 </tbody>
             </table>
-            <button data-testid="own-add" on:click=move |_| change(&|written| written.fields.push(Draft::new(Kind::Skip, match written.framing { Framing::Line | Framing::Biss => 1, Framing::Stream | Framing::Poll(_) => 8 })))>"Add a field"</button>
+            <button data-testid="own-add" on:click=move |_| change(&|written| written.fields.push(Draft::new(Kind::Skip, match written.framing { Framing::Line | Framing::Biss => 1, Framing::Stream | Framing::Poll(_) => 8 })))>{t("Add a field")}</button>
             <label>
-                "As text"
+                {t("As text")}
                 <textarea
                     class="own-text"
                     data-testid="own-text"
@@ -205,7 +208,7 @@ pub(super) fn OwnEditor() -> impl IntoView {
                 />
             </label>
             {move || fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
-            <p class="hint">"Details: le, gray, 0x… (polynomial or constant), init=, xor=, reflected, from= and to= (fields a check covers), bits=a|b. The layout is part of the link."</p>
+            <p class="hint">{t("Details: le, gray, 0x… (polynomial or constant), init=, xor=, reflected, from= and to= (fields a check covers), bits=a|b. The layout is part of the link.")}</p>
         </div>
     }
 }

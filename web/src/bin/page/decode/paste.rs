@@ -1,8 +1,8 @@
 //! Input: a box to paste into, files, and how the text was read.
 
-use super::plural;
-use crate::{app::App, parts};
-use encoderscope::format::Format;
+use super::count;
+use crate::{app::App, desk::Named, parts};
+use encoderscope::{language::t, text};
 use encoderscope_web::message::Marked;
 use js_sys::Array;
 use leptos::{ev, html, prelude::*};
@@ -13,30 +13,6 @@ use web_sys::{Blob, ClipboardEvent, DragEvent};
 const BOXED: usize = 200_000;
 /// Letters of the text whose reading is shown.
 const SHOWN: usize = 8_000;
-
-/// An example of each format, from public captures and the manuals' rules.
-const fn example(format: Format) -> &'static str {
-    match format {
-        Format::Ssi => "00 05 12 34 56 00\n00 05 12 a0 01 00\nff fe 13 00 00 60\n",
-        Format::BissC => {
-            "82 00 05 55 a3 c1 c0 d4\n82 00 05 56 b0 f7 c0 48\n82 ff fe 80 00 01 90 88\n"
-        }
-        Format::Rs485 | Format::Period => {
-            "00 05 12 34 56 00 02\n00 05 12 a0 01 00 31\nff fe 13 00 00 60 8d\n"
-        }
-        Format::T485 => {
-            "1a 20 29 c0 3b 17 00 00 00 c8 37\n1a 20 83 c1 52 17 00 00 00 c8 f5\n1a 20 bf e1 7d 17 00 00 00 c8 c6\n"
-        }
-        Format::Bus => {
-            "1f 1f 00 56 34 12 05 00 6a\n1f 1f 00 01 a0 12 05 00 a9\n1f 1f 60 00 00 13 fe ff 6d\n"
-        }
-        Format::Asi1 => "60 00 00 06 00 35\n60 03 7f 7c 15 4a\n60 00 00 00 00 66\n",
-        Format::Asi4 => "8190\n8191\n8192\n",
-        Format::Ssi7 => "000000000000000000000000000110\n000000000000001000000000000011\n",
-        Format::SsiTree => "1010010100101001000100011\n0110001111111011110001000\n",
-        Format::Own => "00 03 08 f6 43 eb\n",
-    }
-}
 
 #[component]
 pub(super) fn Paste() -> impl IntoView {
@@ -72,7 +48,7 @@ pub(super) fn Paste() -> impl IntoView {
                     let _ = parts::replay(app, file.name(), file.into()).await;
                 });
             }
-            Some(file) => desk.open(file.name(), file.into(), &profile()),
+            Some(file) => desk.open(Named::File(file.name()), file.into(), &profile()),
             None => {}
         }
     };
@@ -102,17 +78,17 @@ pub(super) fn Paste() -> impl IntoView {
             {move || match desk.file.get() {
                 Some(name) => view! {
                     <div class="file" data-testid="file">
-                        <b>{name}</b>
-                        <button on:click=move |_| desk.typed(String::new(), &profile())>"Close"</button>
+                        <b>{name.title()}</b>
+                        <button on:click=move |_| desk.typed(String::new(), &profile())>{t("Close")}</button>
                     </div>
                 }.into_any(),
                 None => view! {
                     <textarea
                         data-testid="dump-input"
-                        aria-label="Dump"
+                        aria-label=t("Dump")
                         spellcheck="false"
                         autocomplete="off"
-                        placeholder="Paste frames in any writing, or drop a file.\n\n1a 20 29 c0 3b 17 00 00 00 c8 37"
+                        placeholder=format!("{}\n\n1a 20 29 c0 3b 17 00 00 00 c8 37", t("Paste frames in any writing, or drop a file."))
                         prop:value=move || desk.text.get()
                         on:paste=move |event| pasted(event.into())
                         on:input:target=move |event| typed(event.target().value())
@@ -126,13 +102,13 @@ pub(super) fn Paste() -> impl IntoView {
         {move || desk.refusal.get().map(|why| view! { <p class="fault" role="alert" data-testid="refusal">{why}</p> })}
         <div class="doors">
             <button data-testid="example" on:click=move |_| {
-                let text = example(app.profile.get_untracked().format);
+                let text = app.profile.get_untracked().format.manual().example;
                 desk.typed(text.into(), &profile());
             }>
-                "Show an example"
+                {t("Show an example")}
             </button>
             <label class="button">
-                "Open a file"
+                {t("Open a file")}
                 <input
                     type="file"
                     class="unseen"
@@ -148,7 +124,7 @@ pub(super) fn Paste() -> impl IntoView {
                 />
             </label>
             {move || (!desk.text.get().is_empty()).then(|| view! {
-                <button on:click=move |_| desk.typed(String::new(), &profile())>"Clear"</button>
+                <button on:click=move |_| desk.typed(String::new(), &profile())>{t("Clear")}</button>
             })}
         </div>
     }
@@ -158,7 +134,7 @@ pub(super) fn Paste() -> impl IntoView {
 fn paste_as_file(app: App, text: &str) {
     let parts = Array::of1(&JsValue::from_str(text));
     if let Ok(blob) = Blob::new_with_str_sequence(&parts) {
-        let name = format!("pasted text, {}", plural(text.len() as f64, "byte"));
+        let name = Named::Pasted(text.len());
         app.desk().open(name, blob, &app.profile.get_untracked());
     }
 }
@@ -177,9 +153,9 @@ fn Progress() -> impl IntoView {
         progress.get().map(|percent| {
             view! {
                 <div class="progress" data-testid="progress" data-value=percent.to_string()>
-                    <progress max="100" value=percent.to_string() aria-label="Reading"></progress>
+                    <progress max="100" value=percent.to_string() aria-label=t("Reading")></progress>
                     <span class="number">{format!("{percent} %")}</span>
-                    <button data-testid="cancel" on:click=move |_| desk.cancel()>"Stop"</button>
+                    <button data-testid="cancel" on:click=move |_| desk.cancel()>{t("Stop")}</button>
                 </div>
             }
         })
@@ -194,21 +170,25 @@ fn ReadNote() -> impl IntoView {
         let overview = desk.overview.get();
         let empty = desk.is_empty();
         let nothing = overview.done && overview.lines == 0.0;
-        let unread = (overview.unread > 0.0)
-            .then(|| format!(" {} cannot be read.", plural(overview.unread, "piece")));
+        let unread = (overview.unread > 0.0).then(|| {
+            text!(
+                " {} {0|piece|pieces} cannot be read.",
+                count(overview.unread)
+            )
+        });
         let dropped: Vec<_> = overview
             .dropped
             .iter()
             .map(|kind| kind.name.clone())
             .collect();
-        let dropped = (!dropped.is_empty()).then(|| format!(" Left out: {}.", dropped.join(", ")));
+        let dropped = (!dropped.is_empty()).then(|| text!(" Left out: {}.", dropped.join(", ")));
         let said = match nothing {
-            true => "There are no bytes in it.".to_owned(),
-            false => format!(
-                "Read as {}: {}, {}.",
+            true => t("There are no bytes in it.").to_owned(),
+            false => text!(
+                "Read as {}: {} {1|line|lines}, {2} {2|byte|bytes}.",
                 overview.writing,
-                plural(overview.lines, "line"),
-                plural(overview.bytes, "byte")
+                count(overview.lines),
+                count(overview.bytes)
             ),
         };
         (!empty && (overview.lines > 0.0 || nothing)).then(|| {
@@ -235,7 +215,7 @@ fn HowRead() -> impl IntoView {
             let unread = marks.iter().any(Marked::is_unread);
             view! {
                 <details class="how-read" open=unread>
-                    <summary>"How the text was read"</summary>
+                    <summary>{t("How the text was read")}</summary>
                     <pre data-testid="how-read">{pieces(&text, &marks)}</pre>
                 </details>
             }
@@ -259,7 +239,7 @@ fn pieces(text: &str, marks: &[Marked]) -> Vec<AnyView> {
         out.push(before.to_owned().into_any());
         let piece = piece.to_owned();
         out.push(match mark.is_unread() {
-            true => view! { <mark data-testid="unread" title="cannot be read">{piece}</mark> }
+            true => view! { <mark data-testid="unread" title=t("cannot be read")>{piece}</mark> }
                 .into_any(),
             false => view! { <s title=mark.kind.clone()>{piece}</s> }.into_any(),
         });
@@ -267,7 +247,7 @@ fn pieces(text: &str, marks: &[Marked]) -> Vec<AnyView> {
     }
     out.push(text.get(at..end).unwrap_or_default().to_owned().into_any());
     if end < text.len() {
-        out.push(view! { <i>" … the rest is not shown"</i> }.into_any());
+        out.push(view! { <i>{t(" … the rest is not shown")}</i> }.into_any());
     }
     out
 }

@@ -3,13 +3,16 @@
 //! A browser draws no element of 300 million pixels, so beyond a limit the scroll bar stands for
 //! parts of the table instead of pixels, and the wheel moves rows, not the bar.
 
-use crate::{app::App, desk::end_text};
+mod filter;
+
+use crate::app::App;
 use encoderscope::{
     explain::grouped_signed,
-    format::STATUS,
-    sheet::{Quantity, Show},
+    language::{number, t},
+    sheet::Quantity,
 };
-use encoderscope_web::message::{RowState, RowView, Selection, ToDesk};
+use encoderscope_web::message::{RowState, RowView, ToDesk};
+use filter::FilterBar;
 use leptos::{html, prelude::*};
 use web_sys::{KeyboardEvent, WheelEvent};
 
@@ -199,7 +202,7 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
                 style:height=move || format!("{}px", (scroll.total.get().clamp(1, SIGHT) + 1) as f64 * ROW + 4.0)
                 tabindex="0"
                 role="region"
-                aria-label="Frames"
+                aria-label=t("Frames")
                 node_ref=scroll.frame
                 data-testid="rows"
                 data-value=move || scroll.total.get().to_string()
@@ -211,13 +214,13 @@ pub(super) fn Rows(shown: Memo<Option<usize>>) -> impl IntoView {
                     <table aria-rowcount=move || scroll.total.get().to_string()>
                         <thead>
                             <tr>
-                                <Heading by=Quantity::Start title="at" />
-                                {move || timed.get().then(|| view! { <Heading by=Quantity::Time title="time" /> })}
-                                <Heading by=Quantity::Turns title="turns" />
-                                <Heading by=Quantity::Angle title="angle" />
-                                <Heading by=Quantity::Status title="status" />
-                                <th class="check">"check"</th>
-                                <th class="hex">"bytes"</th>
+                                <Heading by=Quantity::Start title=t("at") />
+                                {move || timed.get().then(|| view! { <Heading by=Quantity::Time title=t("time") /> })}
+                                <Heading by=Quantity::Turns title=t("turns") />
+                                <Heading by=Quantity::Angle title=t("angle") />
+                                <Heading by=Quantity::Status title=t("status") />
+                                <th class="check">{t("check")}</th>
+                                <th class="hex">{t("Bytes").to_lowercase()}</th>
                             </tr>
                         </thead>
                         <tbody>{visible}</tbody>
@@ -302,7 +305,7 @@ fn Line(row: RowView, place: usize, shown: Memo<Option<usize>>) -> impl IntoView
     // The numbers of a frame that fails are in its fields; here they would pass for good ones.
     let shown_if_good = |text: Option<String>| text.filter(|_| good).unwrap_or_else(|| "–".into());
     let turns = shown_if_good(row.turns.map(|turns| grouped_signed(turns as i64)));
-    let angle = shown_if_good(row.degrees.map(|degrees| degrees + "°"));
+    let angle = shown_if_good(row.degrees.map(|degrees| number(degrees + "°").to_string()));
     view! {
         <tr
             data-testid="dump-row"
@@ -328,161 +331,14 @@ fn Line(row: RowView, place: usize, shown: Memo<Option<usize>>) -> impl IntoView
     .into_any()
 }
 
-/// Seconds, or a time of day.
-fn seconds_of(text: &str) -> Option<f64> {
-    let text = text.trim().replace(',', ".");
-    let parts: Vec<f64> = text
-        .split(':')
-        .map(|part| part.parse().ok())
-        .collect::<Option<_>>()?;
-    (parts.len() <= 3).then(|| parts.iter().fold(0.0, |sum, part| sum * 60.0 + part))
-}
-
 /// A time as the log wrote it: of the day where it is hours.
 fn time_text(seconds: f64) -> String {
     const HOUR: f64 = 3600.0;
     if seconds < HOUR {
-        return format!("{seconds:.6}");
+        return number(format_args!("{seconds:.6}")).to_string();
     }
     let whole = seconds.floor() as u64;
     let (hours, minutes) = (whole / 3600, whole / 60 % 60);
-    format!("{hours:02}:{minutes:02}:{:06.3}", seconds % 60.0)
-}
-
-/// What a show is called on the page.
-const fn title(show: Show) -> &'static str {
-    match show {
-        Show::All => "all",
-        Show::Frames => "frames",
-        Show::Faults => "faults",
-        Show::Conditions => "error or warning",
-    }
-}
-
-/// Which rows are shown, and where to go.
-#[component]
-fn FilterBar() -> impl IntoView {
-    let desk = expect_context::<App>().desk();
-    let update = move |change: &dyn Fn(&mut Selection)| {
-        desk.place.set_value(None);
-        desk.selection.update(|selection| change(selection));
-        desk.goal.set(Some(0));
-    };
-    let shows = Show::ALL.map(|show| {
-        let is_chosen = move || {
-            let name = desk.selection.get().show;
-            name == show.name() || name.is_empty() && show == Show::All
-        };
-        view! {
-            <button
-                class="quiet"
-                class:chosen=is_chosen
-                aria-pressed=move || is_chosen().to_string()
-                data-testid="show"
-                data-value=show.name()
-                on:click=move |_| update(&|selection| selection.show = show.name().into())
-            >
-                {title(show)}
-            </button>
-        }
-    });
-    let (of, from, to) = desk
-        .selection
-        .with_untracked(|selection| selection.range.clone())
-        .unwrap_or((Quantity::Degrees.name().into(), f64::MIN, f64::MAX));
-    let quantity = RwSignal::new(Quantity::parse(&of).unwrap_or(Quantity::Degrees));
-    let chosen = quantity.get_untracked();
-    let is_filtered = desk
-        .selection
-        .with_untracked(|selection| selection.range.is_some() || selection.status != 0);
-    let low = NodeRef::<html::Input>::new();
-    let high = NodeRef::<html::Input>::new();
-    let apply = move || {
-        let number = |input: NodeRef<html::Input>| {
-            let text = input.get_untracked().map(|input| input.value())?;
-            text.trim().replace(',', ".").parse::<f64>().ok()
-        };
-        let range = match (number(low), number(high)) {
-            (None, None) => None,
-            (low, high) => Some((
-                quantity.get_untracked().name().to_owned(),
-                low.unwrap_or(f64::MIN),
-                high.unwrap_or(f64::MAX),
-            )),
-        };
-        update(&|selection| selection.range = range.clone());
-    };
-    let go = move |text: String| {
-        desk.lost.set(false);
-        let Some(seconds) = seconds_of(&text) else {
-            return desk.lost.set(true);
-        };
-        match desk.overview.with_untracked(|overview| overview.timed) {
-            true => desk.send(ToDesk::Seek(seconds)),
-            false => desk.send(ToDesk::Place((seconds as usize).saturating_sub(1))),
-        }
-    };
-    let next = move |_| {
-        let from = desk.chosen.get_untracked().map_or(0, |row| row + 1);
-        desk.send(ToDesk::NextFault(from));
-    };
-    let bits = STATUS.iter().map(|bit| {
-        let mask = 1u8.checked_shl(bit.place).unwrap_or(0);
-        let is_set = move || desk.selection.get().status & mask != 0;
-        view! {
-            <label class="check-box">
-                <input
-                    type="checkbox"
-                    prop:checked=is_set
-                    on:change=move |_| update(&|selection| selection.status ^= mask)
-                />
-                {bit.name}
-            </label>
-        }
-    });
-    let bits = bits.collect_view();
-    let shown = move || {
-        let overview = desk.overview.get();
-        (overview.shown != overview.rows).then(|| {
-            format!(
-                "{} of {} rows",
-                encoderscope::explain::grouped(overview.shown as u64),
-                encoderscope::explain::grouped(overview.rows as u64)
-            )
-        })
-    };
-    view! {
-        <div class="filters">
-            <div class="bar-of" role="group" aria-label="Which rows">{shows.into_iter().collect_view()}</div>
-            <button class="quiet" data-testid="next-fault" on:click=next>"next fault ↓"</button>
-            <label class="go">
-                {move || if desk.overview.get().timed { "Go to time" } else { "Go to row" }}
-                <input inputmode="decimal" data-testid="go" on:change:target=move |event| go(event.target().value()) />
-            </label>
-            <span class="hint" data-testid="shown">{shown}</span>
-            {move || desk.lost.get().then(|| view! { <span class="hint" role="status" data-testid="no-row">"There is no such row."</span> })}
-        </div>
-        <details class="filters-more" open=is_filtered>
-            <summary>"Filter by value or status"</summary>
-            <div class="filters">
-                <label>
-                    "Quantity"
-                    <select
-                        data-testid="range-of"
-                        on:change:target=move |event| {
-                            quantity.set(Quantity::parse(&event.target().value()).unwrap_or(Quantity::Degrees));
-                            apply();
-                        }
-                    >
-                        {Quantity::ALL.into_iter().map(|known| view! {
-                            <option value=known.name() selected=known == chosen>{known.name()}</option>
-                        }).collect_view()}
-                    </select>
-                </label>
-                <label>"from" <input inputmode="decimal" data-testid="range-low" value=end_text(from) node_ref=low on:change=move |_| apply() /></label>
-                <label>"to" <input inputmode="decimal" data-testid="range-high" value=end_text(to) node_ref=high on:change=move |_| apply() /></label>
-                <div class="status-bits">{bits}</div>
-            </div>
-        </details>
-    }
+    let seconds = seconds % 60.0;
+    number(format_args!("{hours:02}:{minutes:02}:{seconds:06.3}")).to_string()
 }

@@ -1,7 +1,7 @@
 //! Out again: links, files, a report, and decoders to paste into a program.
 
 use crate::{app::App, handout::copy};
-use encoderscope::export::Language;
+use encoderscope::{export::Language, language::t, text};
 use encoderscope_web::message::{FileKind, ToDesk};
 use leptos::prelude::*;
 
@@ -28,11 +28,11 @@ pub(super) fn Share() -> impl IntoView {
             None => {}
             Some(Ok(_)) => {
                 wanted.set(false);
-                copy(untrack(link), said, "Link copied.");
+                copy(untrack(link), said, t("Link copied."));
             }
             Some(Err(why)) => {
                 wanted.set(false);
-                said.set(Some(format!("{why} A file was saved instead: send that.")));
+                said.set(Some(text!("{} A file was saved instead: send that.", why)));
                 desk.ask(ToDesk::Export(FileKind::Recording));
             }
         }
@@ -67,7 +67,7 @@ pub(super) fn Share() -> impl IntoView {
     Effect::new(move || {
         if let Some(source) = desk.source.get() {
             desk.source.set(None);
-            copy(source, said, "Source copied.");
+            copy(source, said, t("Source copied."));
         }
     });
     let copy_as = move |language: Language| {
@@ -79,16 +79,16 @@ pub(super) fn Share() -> impl IntoView {
     move || {
         (!desk.is_empty()).then(|| {
             view! {
-                <h2>"Send it on"</h2>
+                <h2>{t("Send it on")}</h2>
                 <div class="doors">
-                    <button class="primary" data-testid="share" on:click=share>"Copy link"</button>
+                    <button class="primary" data-testid="share" on:click=share>{t("Copy link")}</button>
                     {file(FileKind::Csv, "CSV", "save-csv")}
-                    {file(FileKind::JsonLines, "JSON lines", "save-json")}
-                    {file(FileKind::Recording, "Save as a file", "save-recording")}
-                    <button data-testid="print" on:click=print>"Print a report"</button>
+                    {file(FileKind::JsonLines, t("JSON lines"), "save-json")}
+                    {file(FileKind::Recording, t("Save as a file"), "save-recording")}
+                    <button data-testid="print" on:click=print>{t("Print a report")}</button>
                 </div>
                 <div class="doors">
-                    <span class="hint">"Copy this decoder as"</span>
+                    <span class="hint">{t("Copy this decoder as")}</span>
                     {Language::ALL.iter().copied().map(copy_as).collect_view()}
                 </div>
                 {move || said.get().map(|text| view! { <p class="hint" role="status" data-testid="said">{text}</p> })}

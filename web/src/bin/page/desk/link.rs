@@ -1,6 +1,6 @@
 //! The input, and what is shown of it, in a link.
 
-use super::{Choice, Desk};
+use super::{Choice, Desk, Named};
 use encoderscope::sheet::Quantity;
 use encoderscope_web::{
     link::{Fragment, encode, query},
@@ -27,7 +27,7 @@ impl Desk {
             self.payload.set(Some(Ok(payload.clone())));
             self.profile.set_value(Some(profile));
             let profile = query(&profile);
-            self.file.set(Some("frames from a link".into()));
+            self.file.set(Some(Named::Linked));
             let change = value("change");
             self.changed.set(change.clone());
             self.send(ToDesk::Link {

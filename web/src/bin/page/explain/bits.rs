@@ -1,8 +1,8 @@
 //! The bits: pointed at, walked along with the arrow keys, turned over with a click.
 
-use super::paper::Lit;
+use super::paper::{FieldPlan, Lit};
 use crate::app::App;
-use encoderscope::layout::Class;
+use encoderscope::{language::t, layout::Class, text};
 use leptos::prelude::*;
 use wasm_bindgen::JsCast;
 use web_sys::{HtmlElement, KeyboardEvent};
@@ -39,9 +39,9 @@ pub(super) fn BitRow() -> impl IntoView {
             view! {
                 <div class="octet">
                     <div class="octet-bits">
-                        {framed.then(|| view! { <span class="uart" title="start bit">"0"</span> })}
+                        {framed.then(|| view! { <span class="uart" title=t("start bit")>"0"</span> })}
                         {bits.into_iter().map(cell).collect_view()}
-                        {framed.then(|| view! { <span class="uart" title="stop bit">"1"</span> })}
+                        {framed.then(|| view! { <span class="uart" title=t("stop bit")>"1"</span> })}
                     </div>
                     <ByteBox byte=byte />
                 </div>
@@ -77,7 +77,6 @@ pub(super) fn BitRow() -> impl IntoView {
         view! {
             <button
                 class="quiet"
-                class:chosen=move || view.get() == wanted
                 aria-pressed=move || (view.get() == wanted).to_string()
                 on:click=move |_| view.set(wanted)
             >
@@ -87,17 +86,16 @@ pub(super) fn BitRow() -> impl IntoView {
     };
     view! {
         {move || bytes().then(|| view! {
-            <div class="bar-of" role="group" aria-label="Order of the bits" data-testid="bit-order">
-                {order(View::AsRead, "as read")}
-                {order(View::OnTheWire, "as on the wire")}
+            <div class="bar-of" role="group" aria-label=t("Order of the bits") data-testid="bit-order">
+                {order(View::AsRead, t("as read"))}
+                {order(View::OnTheWire, t("as on the wire"))}
             </div>
         })}
         <div
             class="bits big"
             class:bytes=bytes
-            class:wire=move || view.get() == View::OnTheWire
             role="group"
-            aria-label="Bits of the frame; a click turns one over"
+            aria-label=t("Bits of the frame; a click turns one over")
             data-testid="explain-bits"
             on:keydown=walk
             on:mouseleave=move |_| paper.lit.set(None)
@@ -127,19 +125,18 @@ fn Cell(at: usize, here: RwSignal<usize>) -> impl IntoView {
     let (class, field, first) = paper.plan.with_untracked(|plan| {
         let field = plan.cells.get(at).copied().flatten();
         let before = at.checked_sub(1).and_then(|at| plan.cells.get(at).copied());
-        let title = field.and_then(|field| Some(plan.fields.get(field)?.title()));
+        let plain = field.and_then(|field| plan.fields.get(field));
         (
             plan.class_of(at).map_or("none", Class::name),
-            title.unwrap_or_default(),
+            plain.cloned(),
             before != Some(field),
         )
     });
     let bit = Memo::new(move |_| paper.with(|sketch| sketch.bits().bit(at)) == Some(true));
     let number = move || u8::from(bit.get());
-    let label = {
-        let field = field.clone();
-        move || format!("bit {at}, {field}, {}", number())
-    };
+    let title = field.as_ref().map(FieldPlan::title).unwrap_or_default();
+    let field = field.as_ref().map(FieldPlan::plain).unwrap_or_default();
+    let label = move || text!("bit {}, {}, {}", at, title, number());
     view! {
         <button
             id=format!("bit-{at}")
@@ -187,7 +184,7 @@ fn ByteBox(byte: usize) -> impl IntoView {
             maxlength="4"
             spellcheck="false"
             autocomplete="off"
-            aria-label=format!("byte {byte} in hexadecimal digits")
+            aria-label=text!("byte {} in hexadecimal digits", byte)
             data-testid="explain-byte"
             prop:value=text
             on:change:target=move |event| enter(event.target().value())

@@ -7,6 +7,7 @@ use crate::{
 use encoderscope::{
     diagram::{Master, bitfield, svg, wavejson},
     format::own::{self, Framing},
+    language::t,
     profile::Profile,
     sketch::Sketch,
 };
@@ -35,25 +36,25 @@ pub(super) fn Exchange() -> impl IntoView {
             };
             view! { <button data-testid=id on:click=hand>{title}</button> }
         };
-    let link = move |_| copy(untrack(|| app.address()), said, "Link copied.");
+    let link = move |_| copy(untrack(|| app.address()), said, t("Link copied."));
     let tag = move |_| {
         if let Some(tag) = untrack(|| paper.with(tag)) {
             copy(
                 tag,
                 said,
-                "Tag copied: paste it into an HTML page that loads encoder-frame.js.",
+                t("Tag copied: paste it into an HTML page that loads encoder-frame.js."),
             );
         }
     };
     view! {
         <section class="panel exchange">
-            <h2>"Send it on"</h2>
+            <h2>{t("Send it on")}</h2>
             <div class="doors">
-                <button class="primary" data-testid="share" on:click=link>"Copy link"</button>
-                {file("save-svg", "Picture (SVG)", picture)}
+                <button class="primary" data-testid="share" on:click=link>{t("Copy link")}</button>
+                {file("save-svg", t("Picture (SVG)"), picture)}
                 {file("save-wavejson", "WaveJSON", wave)}
-                {file("save-bitfield", "Bit field", fields)}
-                <button data-testid="copy-tag" on:click=tag>"Copy as <encoder-frame>"</button>
+                {file("save-bitfield", t("Bit field"), fields)}
+                <button data-testid="copy-tag" on:click=tag>{t("Copy as <encoder-frame>")}</button>
             </div>
             {move || said.get().map(|text| view! { <p class="hint" role="status" data-testid="said">{text}</p> })}
             <Import />
@@ -119,19 +120,19 @@ fn Import() -> impl IntoView {
     };
     view! {
         <details>
-            <summary>"Read a WaveDrom description"</summary>
+            <summary>{t("Read a WaveDrom description")}</summary>
             <p class="hint">
-                "WaveJSON with clock and data is read as a frame of the present profile; a bit field becomes a layout of your own."
+                {t("WaveJSON with clock and data is read as a frame of the present profile; a bit field becomes a layout of your own.")}
             </p>
             <textarea
                 class="import"
                 spellcheck="false"
-                aria-label="WaveJSON or bit field"
+                aria-label=t("WaveJSON or bit field")
                 data-testid="import-text"
                 prop:value=text
                 on:input:target=move |event| text.set(event.target().value())
             ></textarea>
-            <button data-testid="import" on:click=read>"Read"</button>
+            <button data-testid="import" on:click=read>{t("Read")}</button>
             {move || fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
         </details>
     }

@@ -4,8 +4,10 @@ use super::paper::{FieldPlan, Lit};
 use crate::app::App;
 use encoderscope::{
     explain::{BitNote, Note, degrees_text},
+    language::{number, t},
     layout::Class,
     sketch::Sketch,
+    text,
 };
 use leptos::prelude::*;
 
@@ -21,7 +23,7 @@ pub(super) fn Fields() -> impl IntoView {
     };
     view! {
         <section class="panel">
-            <h2>"Fields"</h2>
+            <h2>{t("Fields")}</h2>
             <ul class="fields" on:mouseleave=move |_| paper.lit.set(None)>{rows}</ul>
         </section>
     }
@@ -55,7 +57,7 @@ fn FieldRow(index: usize, field: FieldPlan, notes: Memo<Vec<Note>>) -> impl Into
             class:lit=move || paper.is_field_lit(index)
             class:faulty=move || note.with(|note| note.as_ref().is_some_and(|note| note.fault.is_some()))
             data-testid="explain-field"
-            data-field=field.title()
+            data-field=field.plain()
             data-value=move || with(|note| note.raw.to_string())
             on:mouseenter=point
             on:focusin=move |_| paper.lit.set(Some(Lit::Field(index)))
@@ -63,7 +65,7 @@ fn FieldRow(index: usize, field: FieldPlan, notes: Memo<Vec<Note>>) -> impl Into
             <span class="name">{field.title()}</span>
             <span class="raw">
                 <Entry field=field.clone() note=note />
-                <small>" · " {field.width} " bit"</small>
+                <small>{text!(" · {} bit", field.width)}</small>
             </span>
             <div class="says">
                 <p data-testid="explain-text">{text}</p>
@@ -99,7 +101,7 @@ fn NamedBit(place: usize, bit: BitNote, note: Memo<Option<Note>>) -> impl IntoVi
                 }
                 on:focus=move |_| paper.lit.set(Some(Lit::Bit(at)))
             />
-            {bit.name}
+            {t(bit.name)}
         </label>
         {move || set().then(|| view! { <span class="doc">{bit.doc}</span> })}
     }
@@ -126,7 +128,7 @@ fn Entry(field: FieldPlan, note: Memo<Option<Note>>) -> impl IntoView {
             let layout = &sketch.kind().layout;
             let raw = layout.read(sketch.field(name)?, sketch.bits());
             let bits = layout.shape.profile.angle_bits;
-            Some(degrees_text(raw, bits, places(bits)))
+            Some(number(degrees_text(raw, bits, places(bits))).to_string())
         })
     };
     let is_angle = field.class == Class::Angle;
@@ -138,7 +140,7 @@ fn Entry(field: FieldPlan, note: Memo<Option<Note>>) -> impl IntoView {
             aria-label=field.title()
             aria-invalid=move || refusal.get().is_some().to_string()
             data-testid="explain-entry"
-            data-field=field.title()
+            data-field=field.plain()
             prop:value=value
             on:change:target=move |event| enter(event.target().value())
         />
@@ -148,7 +150,7 @@ fn Entry(field: FieldPlan, note: Memo<Option<Note>>) -> impl IntoView {
                     class="entry"
                     inputmode="decimal"
                     autocomplete="off"
-                    aria-label="angle in degrees"
+                    aria-label=t("angle in degrees")
                     data-testid="explain-degrees"
                     prop:value=move || degrees().flatten()
                     on:change:target=move |event| enter(event.target().value() + "°")

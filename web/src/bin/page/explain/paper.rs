@@ -7,9 +7,11 @@ use encoderscope::{
     dump::Direction,
     format::Format,
     framing::Why,
+    language::t,
     layout::Class,
     profile::Profile,
     sketch::{Checks, Sketch},
+    text,
 };
 use encoderscope_web::link::{Fragment, encode};
 use leptos::prelude::*;
@@ -37,6 +39,11 @@ pub(super) struct FieldPlan {
 impl FieldPlan {
     /// Its name for people.
     pub(super) fn title(&self) -> String {
+        t(self.name).replace('_', " ")
+    }
+
+    /// The same in English, for what looks for it.
+    pub(super) fn plain(&self) -> String {
         self.name.replace('_', " ")
     }
 }
@@ -44,7 +51,6 @@ impl FieldPlan {
 /// What does not change while bits do: elements stay, and so does the focus.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Plan {
-    pub(super) title: String,
     pub(super) fields: Vec<FieldPlan>,
     /// The field of each bit.
     pub(super) cells: Vec<Option<usize>>,
@@ -73,7 +79,6 @@ impl Plan {
         }
         let profile = *sketch.decoder().profile();
         Self {
-            title: kind.title.clone(),
             fields: fields.collect(),
             cells,
             bytes: profile.is_serial(),
@@ -205,7 +210,7 @@ impl Paper {
                 self.follow_profile(profile);
                 let title = profile.title();
                 self.fault
-                    .set(Some(format!("This is no frame of {title}: {why}.")));
+                    .set(Some(text!("This is no frame of {}: {}.", title, why)));
             }
         }
     }

@@ -5,8 +5,10 @@ use crate::app::App;
 use encoderscope::{
     conversation::{Conversation, Line},
     dump::Direction,
+    language::{number, t},
     record::hex,
     sequence::Change,
+    text,
 };
 use leptos::prelude::*;
 
@@ -40,7 +42,7 @@ pub(super) fn Talk() -> impl IntoView {
                 let title = change.script(&profile)?.title;
                 Some(view! {
                     <button data-testid="talk-begin" data-value=title on:click=move |_| begin(change)>
-                        {title}
+                        {t(title)}
                     </button>
                 })
             })
@@ -62,10 +64,10 @@ pub(super) fn Talk() -> impl IntoView {
                         data-testid="talk-line"
                         on:click=move |_| go(index)
                     >
-                        <span class="time">{format!("{:.3} ms", line.at as f64 / 1e3)}</span>
+                        <span class="time">{text!("{} ms", number(format_args!("{:.3}", line.at as f64 / 1e3)))}</span>
                         <span>{match line.direction {
-                            Direction::Sent => "master",
-                            Direction::Received => "encoder",
+                            Direction::Sent => t("master"),
+                            Direction::Received => t("encoder"),
                         }}</span>
                         <code>{spaced(&line.bytes)}</code>
                     </button>
@@ -73,13 +75,13 @@ pub(super) fn Talk() -> impl IntoView {
             }
         });
         Some(view! {
-            <div class="bar-of">
-                <button disabled=move || at.get() == 0 data-testid="talk-back" on:click=move |_| go(at.get_untracked().saturating_sub(1))>"← back"</button>
-                <button disabled=at_end data-testid="talk-on" on:click=move |_| go((at.get_untracked() + 1).min(last))>"on →"</button>
-                <span class="hint" role="status">{move || format!("frame {} of {}", at.get() + 1, last + 1)}</span>
+            <div class="doors">
+                <button disabled=move || at.get() == 0 data-testid="talk-back" on:click=move |_| go(at.get_untracked().saturating_sub(1))>{t("← back")}</button>
+                <button disabled=at_end data-testid="talk-on" on:click=move |_| go((at.get_untracked() + 1).min(last))>{t("on →")}</button>
+                <span class="hint" role="status">{move || text!("frame {} of {}", at.get() + 1, last + 1)}</span>
             </div>
             <ol class="talk-lines">{rows.collect_view()}</ol>
-            <p class="hint">{format!("In the end: {holds}.")}</p>
+            <p class="hint">{text!("In the end: {}.", holds)}</p>
         })
     };
     move || {
@@ -87,9 +89,9 @@ pub(super) fn Talk() -> impl IntoView {
         (!choices.is_empty()).then(|| {
             view! {
                 <section class="panel talk" data-testid="talk">
-                    <h2>"Conversations"</h2>
+                    <h2>{t("Conversations")}</h2>
                     <p class="hint">
-                        "A built-in encoder answers; nothing goes to any port. Each frame is explained above."
+                        {t("A built-in encoder answers; nothing goes to any port. Each frame is explained above.")}
                     </p>
                     <div class="doors">{choices}</div>
                     {lines}

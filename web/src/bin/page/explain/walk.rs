@@ -1,8 +1,8 @@
 //! The checks, bit by bit.
 
-use super::paper::{Lit, Paper};
+use super::paper::{FieldPlan, Lit, Paper};
 use crate::app::App;
-use encoderscope::check::Walk;
+use encoderscope::{check::Walk, language::t, text};
 use leptos::prelude::*;
 
 /// One panel a check of the frame.
@@ -13,7 +13,7 @@ pub(super) fn Checks() -> impl IntoView {
         let plan = paper.plan.get();
         let checks = plan.fields.into_iter().filter(|field| field.is_check);
         checks
-            .map(|field| view! { <CheckPanel name=field.name title=field.title() /> })
+            .map(|field| view! { <CheckPanel field=field /> })
             .collect_view()
     }
 }
@@ -24,7 +24,8 @@ fn binary(value: u64, width: u32) -> String {
 }
 
 #[component]
-fn CheckPanel(name: &'static str, title: String) -> impl IntoView {
+fn CheckPanel(field: FieldPlan) -> impl IntoView {
+    let name = field.name;
     let paper = expect_context::<App>().paper();
     let look = move || {
         paper.with(|sketch| {
@@ -53,14 +54,14 @@ fn CheckPanel(name: &'static str, title: String) -> impl IntoView {
         let width = walk.algorithm.width;
         let good = walk.result == received;
         Some(view! {
-            <p class="covers">"covers " {covered(paper, &walk)} {format!(" = {} bits", walk.steps.len())}</p>
+            <p class="covers">{t("covers ")} {covered(paper, &walk)} {text!(" = {} bits", walk.steps.len())}</p>
             <p class="outcome">
                 {ending(&walk)}
                 <b data-testid="explain-result" data-value=walk.result.to_string()>{binary(walk.result, width)}</b>
                 {match good {
-                    true => view! { <span class="good">" = received ✓"</span> }.into_any(),
+                    true => view! { <span class="good">{t(" = received ✓")}</span> }.into_any(),
                     false => view! {
-                        <span class="bad">" ≠ received " <b>{binary(received, width)}</b></span>
+                        <span class="bad">{t(" ≠ received ")} <b>{binary(received, width)}</b></span>
                     }.into_any(),
                 }}
             </p>
@@ -72,11 +73,11 @@ fn CheckPanel(name: &'static str, title: String) -> impl IntoView {
         Some(stage(paper, &walk, at))
     };
     view! {
-        <section class="panel walk" data-testid="explain-check" data-field=title.clone()>
-            <h2>{title.to_uppercase()} <span>{sum}</span></h2>
+        <section class="panel walk" data-testid="explain-check" data-field=field.plain()>
+            <h2>{field.title().to_uppercase()} <span>{t(sum)}</span></h2>
             {body}
             <label class="steps">
-                <span class="hint">{move || format!("Step {} of {}", step.get().min(count()), count())}</span>
+                <span class="hint">{move || text!("Step {} of {}", step.get().min(count()), count())}</span>
                 <input
                     type="range"
                     min="0"
@@ -114,15 +115,15 @@ fn ending(walk: &Walk) -> String {
     let algorithm = &walk.algorithm;
     let last = walk.steps.last().map_or(walk.start, |step| step.register);
     let remainder = binary(last, algorithm.width);
-    let mut text = format!("remainder {remainder} → ");
+    let mut text = text!("remainder {} → ", remainder);
     if algorithm.refout {
-        text += "read backwards ";
+        text += t("read backwards ");
     }
     if algorithm.xorout != 0 {
         let all = binary(algorithm.xorout, algorithm.width);
         text += match all.contains('0') {
-            false => "inverted ",
-            true => "changed ",
+            false => t("inverted "),
+            true => t("changed "),
         };
     }
     text
@@ -133,7 +134,7 @@ fn stage(paper: Paper, walk: &Walk, at: usize) -> AnyView {
     let width = walk.algorithm.width;
     let Some(step) = at.checked_sub(1).and_then(|index| walk.steps.get(index)) else {
         return view! {
-            <p class="walk-step">"The register begins at " <b class="register">{binary(walk.start, width)}</b> "."</p>
+            <p class="walk-step">{t("The register begins at ")} <b class="register">{binary(walk.start, width)}</b> "."</p>
         }
         .into_any();
     };
@@ -150,13 +151,13 @@ fn stage(paper: Paper, walk: &Walk, at: usize) -> AnyView {
     });
     let subtracted = format!("1{}", binary(walk.algorithm.polynomial, width));
     let does = match step.subtracts {
-        true => format!("they differ: {subtracted} is subtracted"),
-        false => "they are equal: nothing is subtracted".into(),
+        true => text!("they differ: {} is subtracted", subtracted),
+        false => t("they are equal: nothing is subtracted").into(),
     };
     view! {
         <div class="walk-step">
             <p>
-                "Out falls " <b>{out.to_owned()}</b> ", bit " {step.at} " of " {field} " is "
+                {t("Out falls ")} <b>{out.to_owned()}</b> {text!(", bit {} of {} is ", step.at, field)}
                 <b>{u8::from(step.bit)}</b> "; " {does} "."
             </p>
             <p class="register">

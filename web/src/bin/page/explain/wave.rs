@@ -5,7 +5,9 @@ use crate::app::App;
 use encoderscope::{
     diagram::{Fold, Lane, Limit, Master, Slot, Timeline, What},
     format::Link,
+    language::{number, t},
     layout::Class,
+    text,
 };
 use leptos::{html, prelude::*};
 
@@ -74,28 +76,28 @@ pub(super) fn Wave() -> impl IntoView {
     view! {
         <section class="panel">
             <div class="heading">
-                <h2>"On the wire"</h2>
+                <h2>{t("On the wire")}</h2>
                 {move || match clocked.get() {
                     true => view! {
                         <label>
-                            <span class="hint">"Clock, kHz"</span>
+                            <span class="hint">{t("Clock, kHz")}</span>
                             <input
                                 class="entry"
                                 inputmode="decimal"
                                 data-testid="explain-clock"
-                                prop:value=move || (f64::from(hertz.get()) / 1e3).to_string()
+                                prop:value=move || number(f64::from(hertz.get()) / 1e3).to_string()
                                 on:change:target=move |event| enter(event.target().value())
                             />
                         </label>
                     }.into_any(),
                     false => view! {
-                        <span class="hint">{move || format!("{} baud, 8N1", app.profile.get().baud)}</span>
+                        <span class="hint">{move || text!("{} baud, 8N1", app.profile.get().baud)}</span>
                     }.into_any(),
                 }}
             </div>
             <div class="wave-box">
                 {move || timeline.with(|timeline| timeline.as_ref().map(wire_names))}
-                <div class="wave" node_ref=frame tabindex="0" role="region" aria-label="Timing diagram">{picture}</div>
+                <div class="wave" node_ref=frame tabindex="0" role="region" aria-label=t("Timing diagram")>{picture}</div>
             </div>
             <ul class="limits">{limits}</ul>
         </section>
@@ -109,8 +111,8 @@ fn limit(limit: Limit) -> impl IntoView {
     };
     view! {
         <li data-testid="explain-limit" data-value=limit.holds.to_string()>
-            <b class=class>{sign} " " {limit.name} ": " {limit.value}</b>
-            <span class="doc">{format!("{} ({})", limit.text, limit.source)}</span>
+            <b class=class>{sign} " " {t(limit.name)} ": " {limit.value}</b>
+            <span class="doc">{format!("{} ({})", limit.text, t(limit.source))}</span>
         </li>
     }
 }
@@ -144,7 +146,7 @@ fn draw(paper: Paper, timeline: &Timeline) -> impl IntoView + use<> {
             height=height
             viewBox=format!("0 0 {width} {height}")
             role="img"
-            aria-label="Levels of the wires over time"
+            aria-label=t("Levels of the wires over time")
             on:mouseleave=move |_| paper.lit.set(None)
         >
             {slots}
@@ -182,7 +184,7 @@ fn wire_names(timeline: &Timeline) -> impl IntoView + use<> {
     let height = TOP + LANE * timeline.lanes.len() as f64;
     let names = timeline.lanes.iter().enumerate().map(|(index, lane)| {
         let y = TOP + LANE * index as f64 + 10.0 + SWING / 2.0 + 4.0;
-        view! { <text x="0" y=y>{lane.name}</text> }
+        view! { <text x="0" y=y>{t(lane.name)}</text> }
     });
     view! { <svg class="wire-names" width="60" height=height aria-hidden="true">{names.collect_view()}</svg> }
 }
@@ -195,7 +197,7 @@ fn stretch(paper: Paper, slot: &Slot, fold: &Fold) -> AnyView {
     let What::Bit(bit) = slot.what else {
         return view! {
             <rect class="slot other" x=x y=y width=width height=LANE - 8.0>
-                <title>{slot.what.name()}</title>
+                <title>{t(slot.what.name())}</title>
             </rect>
         }
         .into_any();
@@ -222,8 +224,26 @@ struct Name {
     text: String,
     class: &'static str,
     x: f64,
-    end: f64,
+    /// Where it may begin at the latest: over the last bit of its field.
+    latest: f64,
+    width: f64,
     is_field: bool,
+}
+
+impl Name {
+    /// Where it begins on a line with others, as far left as it may.
+    fn fits(&self, line: &[(f64, f64)]) -> Option<f64> {
+        let mut x = self.x;
+        // Each of the others pushes it to the right once at most.
+        for _ in line {
+            let meets = |(from, end): &&(f64, f64)| x < *end && x + self.width > *from;
+            x = line.iter().find(meets).map_or(x, |(_, end)| *end);
+        }
+        let is_free = line
+            .iter()
+            .all(|(from, end)| x >= *end || x + self.width <= *from);
+        (is_free && x <= self.latest).then_some(x)
+    }
 }
 
 /// The name of each field above its first bit on the wire, and of what else is seen.
@@ -236,6 +256,9 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
             What::Bit(bit) => {
                 let field = plan.cells.get(bit).copied().flatten();
                 if field == last {
+                    if let Some(name) = names.last_mut().filter(|name| name.is_field) {
+                        name.latest = LEFT + fold.x(slot.from);
+                    }
                     continue;
                 }
                 last = field;
@@ -245,15 +268,16 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
                 (field.title(), field.class.name(), true)
             }
             What::Start | What::Stop => continue,
-            other => (other.name().to_owned(), "none", false),
+            other => (t(other.name()).to_owned(), "none", false),
         };
         let x = LEFT + fold.x(slot.from);
-        let end = x + text.chars().count() as f64 * LETTER + LETTER;
+        let width = text.chars().count() as f64 * LETTER + LETTER;
         names.push(Name {
             text,
             class,
             x,
-            end,
+            latest: x,
+            width,
             is_field,
         });
     }
@@ -264,14 +288,13 @@ fn names(paper: Paper, timeline: &Timeline, fold: &Fold) -> Vec<AnyView> {
     let mut drawn = Vec::new();
     for name in names {
         let lines = placed.iter_mut().zip([12.0, 26.0]);
-        let room =
-            |line: &[(f64, f64)]| line.iter().all(|(x, end)| name.end <= *x || name.x >= *end);
-        let Some((line, y)) = lines.into_iter().find(|(line, _)| room(line)) else {
+        let places = lines.filter_map(|(line, y)| Some((name.fits(line)?, line, y)));
+        let Some((x, line, y)) = places.min_by(|one, other| one.0.total_cmp(&other.0)) else {
             continue;
         };
-        line.push((name.x, name.end));
+        line.push((x, x + name.width));
         let class = format!("name {}", name.class);
-        drawn.push(view! { <text class=class x=name.x y=y>{name.text}</text> }.into_any());
+        drawn.push(view! { <text class=class x=x y=y>{name.text}</text> }.into_any());
     }
     drawn
 }

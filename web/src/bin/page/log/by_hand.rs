@@ -1,7 +1,7 @@
 //! Bytes that are sent by hand.
 
 use crate::app::App;
-use encoderscope::{dump, format::Medium, sequence::danger};
+use encoderscope::{dump, format::Medium, language::t, sequence::danger, text};
 use encoderscope_web::message::{Link, Wish};
 use leptos::prelude::*;
 
@@ -18,13 +18,11 @@ fn parse(text: &str) -> Result<Vec<u8>, String> {
             let marks = dump.unread().places.iter().chain(&dump.dropped().places);
             let unread =
                 marks.filter_map(|mark| text.get(mark.at.start as usize..mark.at.end as usize));
-            Err(format!(
-                "not bytes: {}",
-                unread.collect::<Vec<_>>().join(" ")
-            ))
+            let unread = unread.collect::<Vec<_>>().join(" ");
+            Err(text!("not bytes: {}", unread))
         }
-        0 => Err("hexadecimal bytes, for example 1A".into()),
-        count if count > BY_HAND => Err(format!("{count} bytes are more than {BY_HAND}")),
+        0 => Err(t("hexadecimal bytes, for example 1A").into()),
+        count if count > BY_HAND => Err(text!("{} bytes are more than {}", count, BY_HAND)),
         _ => Ok(bytes),
     }
 }
@@ -85,7 +83,7 @@ pub(crate) fn ByHand(sent: Callback<()>) -> impl IntoView {
             }
         >
             <label>
-                "Send bytes by hand"
+                {t("Send bytes by hand")}
                 <input
                     name="by-hand"
                     placeholder="1A"
@@ -98,15 +96,15 @@ pub(crate) fn ByHand(sent: Callback<()>) -> impl IntoView {
                     }
                 />
             </label>
-            <button data-testid="send" disabled=move || !open.get()>"Send"</button>
+            <button data-testid="send" disabled=move || !open.get()>{t("Send")}</button>
         </form>
         {move || fault.get().map(|fault| view! { <p class="fault" role="alert">{fault}</p> })}
         {move || question.get().map(|(bytes, why)| view! {
             <div class="question" role="alertdialog" data-testid="danger">
-                <p>{why} ". It may change what the encoder holds."</p>
+                <p>{text!("{}. It may change what the encoder holds.", why)}</p>
                 <div class="doors">
-                    <button data-testid="send-anyway" on:click=move |_| confirm(bytes.clone())>"Send it all the same"</button>
-                    <button on:click=move |_| question.set(None)>"Do not send"</button>
+                    <button data-testid="send-anyway" on:click=move |_| confirm(bytes.clone())>{t("Send it all the same")}</button>
+                    <button on:click=move |_| question.set(None)>{t("Do not send")}</button>
                 </div>
             </div>
         })}

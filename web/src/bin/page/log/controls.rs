@@ -2,6 +2,7 @@
 
 use super::LogView;
 use crate::app::App;
+use encoderscope::language::{msg, t};
 use encoderscope_web::message::LogFilter;
 use leptos::prelude::*;
 
@@ -19,28 +20,27 @@ pub(crate) fn Controls(view: LogView) -> impl IntoView {
         });
     };
     let filters = [
-        (LogFilter::All, "all"),
-        (LogFilter::Received, "received"),
-        (LogFilter::Sent, "sent"),
-        (LogFilter::Faults, "faults"),
-        (LogFilter::Beside, "other"),
+        (LogFilter::All, msg("all")),
+        (LogFilter::Received, msg("received")),
+        (LogFilter::Sent, msg("sent")),
+        (LogFilter::Faults, msg("faults")),
+        (LogFilter::Beside, msg("other")),
     ];
     view! {
-        <div class="doors bar-of" role="group" aria-label="Which frames">
+        <div class="doors bar-of" role="group" aria-label=t("Which frames")>
             {filters.map(|(wanted, text)| view! {
                 <button
                     class="quiet"
-                    class:chosen=move || filter.get() == wanted
                     aria-pressed=move || (filter.get() == wanted).to_string()
                     data-testid="log-filter"
                     data-value=text
                     on:click=move |_| view.show(app, wanted)
                 >
-                    {text}
+                    {t(text)}
                 </button>
             }).collect_view()}
             <button class="quiet" data-testid="log-pause" aria-pressed=move || held.get().is_some().to_string() on:click=pause>
-                {move || if held.get().is_some() { "go on" } else { "pause" }}
+                {move || if held.get().is_some() { t("go on") } else { t("pause") }}
             </button>
         </div>
     }

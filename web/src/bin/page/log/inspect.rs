@@ -1,7 +1,7 @@
 //! The bytes that were chosen in the log, explained.
 
 use crate::{app::App, frame_view::FrameView};
-use encoderscope::{decode::Decoder, record::hex};
+use encoderscope::{decode::Decoder, language::t, record::hex};
 use encoderscope_web::{
     link::query,
     message::{Entry, Explained},
@@ -30,8 +30,8 @@ pub(crate) fn Inspect(entry: Entry, close: Callback<()>) -> impl IntoView {
         <div class="inspect" data-testid="inspect">
             {shown}
             <div class="doors">
-                <a class="button" href=format!("#/decode?{}&dump={text}", query(&profile))>"Open in the decoder"</a>
-                <button on:click=move |_| close.run(())>"Close"</button>
+                <a class="button" href=format!("#/decode?{}&dump={text}", query(&profile))>{t("Open in the decoder")}</a>
+                <button on:click=move |_| close.run(())>{t("Close")}</button>
             </div>
         </div>
     }

@@ -2,6 +2,10 @@
 
 use super::View;
 use crate::app::App;
+use encoderscope::{
+    language::{number, t},
+    text,
+};
 use encoderscope_web::plot::{Plot, Quantity, Trace};
 use leptos::{html, prelude::*};
 use std::rc::Rc;
@@ -131,14 +135,15 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// A value with as many decimals as its quantity deserves, always as wide as its widest.
-pub(super) fn text(quantity: Quantity, value: f64) -> String {
+pub(super) fn value_text(quantity: Quantity, value: f64) -> String {
     let (width, places) = match quantity {
         Quantity::Angle => (9, 4),
         Quantity::Speed => (8, 3),
         Quantity::Temperature => (6, 1),
         Quantity::Errors => (4, 0),
     };
-    let text = format!("{value:width$.places$}{}", quantity.unit());
+    let value = format!("{value:width$.places$}");
+    let text = format!("{}{}", number(value), t(quantity.unit()));
     text.replace('-', "−")
 }
 
@@ -156,13 +161,13 @@ pub(super) fn value_at(trace: &Trace, at: f64) -> Option<f64> {
 fn summary(trace: Option<&Trace>, quantity: Quantity) -> String {
     let last = trace.and_then(|trace| trace.values.iter().rev().find(|value| !value.is_nan()));
     match (trace.and_then(extremes), last) {
-        (Some((low, high)), Some(last)) => format!(
+        (Some((low, high)), Some(last)) => text!(
             "lowest{} · highest{} · last{}",
-            text(quantity, low),
-            text(quantity, high),
-            text(quantity, *last)
+            value_text(quantity, low),
+            value_text(quantity, high),
+            value_text(quantity, *last)
         ),
-        _ => "nothing in this time".into(),
+        _ => t("nothing in this time").into(),
     }
 }
 
@@ -223,7 +228,7 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
     view! {
         <figure class="chart">
             <figcaption>
-                <b>{quantity.name()}</b>
+                <b>{t(quantity.name())}</b>
                 <span>{says}</span>
             </figcaption>
             <div
@@ -231,7 +236,7 @@ pub(super) fn ChartView(quantity: Quantity, view: View) -> impl IntoView {
                 node_ref=place
                 tabindex="0"
                 role="img"
-                aria-label=move || format!("{} over time: {}", quantity.name(), says.get())
+                aria-label=move || text!("{} over time: {}", t(quantity.name()), says.get())
                 data-testid=format!("chart-{}", quantity.name())
             ></div>
         </figure>

@@ -1,8 +1,14 @@
 //! Two recordings side by side.
 
 use super::{Recordings, clock_text};
-use encoderscope::explain::grouped;
+use crate::app::sizes;
+use encoderscope::{
+    explain::grouped,
+    language::{msg, number, t},
+    text,
+};
 use encoderscope_web::{
+    link::profile,
     message::{Digest, Lamp},
     plot::Trace,
 };
@@ -22,7 +28,7 @@ pub(super) fn Comparison(recordings: Recordings) -> impl IntoView {
                 let differs = left != right;
                 view! {
                     <tr class:differs=differs data-testid="compared" data-name=name>
-                        <th scope="row">{name}</th>
+                        <th scope="row">{t(name)}</th>
                         <td class="number">{left}</td>
                         <td class="number">{right}</td>
                     </tr>
@@ -46,15 +52,22 @@ pub(super) fn Comparison(recordings: Recordings) -> impl IntoView {
                     class="overlay"
                     viewBox=format!("0 0 {WIDTH} {HEIGHT}")
                     role="img"
-                    aria-label="The angle of both over time"
+                    aria-label=t("The angle of both over time")
                 >
                     <path class="one" d=line(&one) />
                     <path class="other" d=line(&other) />
                 </svg>
-                <p class="hint">{format!("The angle, 0 to 360°, over the first {}.", clock_text(long))}</p>
+                <p class="hint">{text!("The angle, 0 to 360°, over the first {}.", clock_text(long))}</p>
             }
         })
     }
+}
+
+/// The encoder that a link names, in a line.
+fn encoder(link: &str) -> String {
+    profile(link).map_or(link.to_owned(), |profile| {
+        format!("{} {}", t(profile.title()), sizes(&profile))
+    })
 }
 
 /// What a recording comes to, a row each.
@@ -63,48 +76,53 @@ fn rows(digest: &Digest) -> Vec<(&'static str, String)> {
     let count = |value: f64| grouped(value as u64);
     let all = counts.good + counts.bad + counts.silent;
     let share = |part: f64| match all > 0.0 {
-        true => format!("{:.3} %", part / all * 100.0),
+        true => number(format_args!("{:.3} %", part / all * 100.0)).to_string(),
         false => "–".into(),
     };
-    let milliseconds =
-        |value: Option<f64>| value.map_or("–".into(), |value| format!("{value:.2} ms"));
+    let milliseconds = |value: Option<f64>| {
+        let two = |value| text!("{} ms", number(format_args!("{value:.2}")));
+        value.map_or("–".into(), two)
+    };
     let last = &digest.last;
-    let reading = last.reading.map_or("–".into(), |shown| match shown.turns {
-        Some(turns) => format!("{turns} turns, {:.4}°", shown.degrees),
-        None => format!("{:.4}°", shown.degrees),
+    let reading = last.reading.map_or("–".into(), |shown| {
+        let degrees = number(format!("{:.4}°", shown.degrees));
+        match shown.turns {
+            Some(turns) => text!("{} {0|turn|turns}, {}", turns, degrees),
+            None => degrees.to_string(),
+        }
     });
     let lit = |lamp: &&Lamp| lamp.seen > 0.0;
     let lamps: Vec<_> = last
         .lamps
         .iter()
         .filter(lit)
-        .map(|lamp| lamp.name.clone())
+        .map(|lamp| t(&lamp.name))
         .collect();
     vec![
-        ("length", clock_text(digest.seconds)),
-        ("encoder", digest.profile.clone()),
-        ("adapter", digest.adapter.clone()),
-        ("good frames", count(counts.good)),
-        ("bad frames", count(counts.bad)),
-        ("no answer", count(counts.silent)),
-        ("errors", share(counts.bad + counts.silent)),
-        ("bytes in", count(counts.bytes)),
-        ("skipped", count(counts.skipped)),
-        ("line errors", count(counts.line)),
+        (msg("length"), clock_text(digest.seconds)),
+        (msg("encoder"), encoder(&digest.profile)),
+        (msg("adapter"), t(&digest.adapter).to_owned()),
+        (msg("good frames"), count(counts.good)),
+        (msg("bad frames"), count(counts.bad)),
+        (msg("no answer"), count(counts.silent)),
+        (msg("errors"), share(counts.bad + counts.silent)),
+        (msg("bytes in"), count(counts.bytes)),
+        (msg("skipped"), count(counts.skipped)),
+        (msg("line errors"), count(counts.line)),
         (
-            "frames a second",
+            msg("frames a second"),
             match digest.seconds > 0.0 {
                 true => count(counts.good / digest.seconds),
                 false => "–".into(),
             },
         ),
-        ("median reply", milliseconds(last.latency)),
-        ("99 of 100 replies", milliseconds(last.latency_p99)),
-        ("last reading", reading),
+        (msg("median reply"), milliseconds(last.latency)),
+        (msg("99 of 100 replies"), milliseconds(last.latency_p99)),
+        (msg("last reading"), reading),
         (
-            "status bits seen",
+            msg("status bits seen"),
             match lamps.is_empty() {
-                true => "none".into(),
+                true => t("none").into(),
                 false => lamps.join(", "),
             },
         ),

@@ -3,10 +3,12 @@
 use super::{
     Recordings,
     compare::Comparison,
+    deleting::Deleted,
     report::{Handing, Opened},
     size_text,
 };
 use crate::app::App;
+use encoderscope::language::t;
 use encoderscope_web::{
     browser::time_text,
     message::{Kept, Wish},
@@ -25,48 +27,52 @@ pub(crate) fn RecordingsPanel() -> impl IntoView {
             recordings.send(&Wish::Compare([one.clone(), other.clone()]));
         }
     };
+    let is_empty = Memo::new(move |_| recordings.shown().is_empty());
     view! {
         <Opened recordings=recordings />
         <section class="panel recordings">
-            <h2>"Recordings"</h2>
+            <h2>{t("Recordings")}</h2>
             {move || recordings.fault.get().map(|why| view! { <p class="fault" role="alert" data-testid="recordings-fault">{why}</p> })}
-            {move || match recordings.list.with(Vec::is_empty) {
+            {move || match is_empty.get() {
                 true => view! {
                     <p class="hint">
-                        "A recording keeps every byte with its time and direction. It is written to this browser's "
-                        "storage as it comes, so that a crash takes half a second at most; Wireshark opens it, and "
-                        "so does this page."
+                        {t(
+                            "A recording keeps every byte with its time and direction. It is written to this browser's \
+                             storage as it comes, so that a crash takes half a second at most; Wireshark opens it, and \
+                             so does this page.",
+                        )}
                     </p>
                 }.into_any(),
                 false => view! {
                     <table data-testid="recordings">
                         <thead>
                             <tr>
-                                <th><span class="unseen">"compare"</span></th>
-                                <th>"name"</th>
-                                <th>"written"</th>
-                                <th>"size"</th>
-                                <th><span class="unseen">"what to do"</span></th>
+                                <th><span class="unseen">{t("compare")}</span></th>
+                                <th>{t("name")}</th>
+                                <th>{t("written")}</th>
+                                <th>{t("size")}</th>
+                                <th><span class="unseen">{t("what to do")}</span></th>
                             </tr>
                         </thead>
                         <tbody>
-                            <For each=move || recordings.list.get() key=Kept::key let(kept)>
+                            <For each=move || recordings.shown() key=Kept::key let(kept)>
                                 <Row recordings=recordings kept=kept chosen=chosen />
                             </For>
                         </tbody>
                     </table>
                 }.into_any(),
             }}
+            <Deleted recordings=recordings />
             <div class="doors">
                 <OpenFile recordings=recordings />
-                {move || (recordings.list.with(Vec::len) > 1).then(|| view! {
+                {move || (recordings.shown().len() > 1).then(|| view! {
                     <button
                         data-testid="compare"
                         disabled=move || chosen.with(Vec::len) != 2
-                        title="Choose two recordings"
+                        title=t("Choose two recordings")
                         on:click=compare
                     >
-                        "Compare two"
+                        {t("Compare two")}
                     </button>
                 })}
                 <Handing recordings=recordings />
@@ -93,17 +99,16 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
         });
     };
     let note = match (kept.runs, kept.whole) {
-        (true, _) => Some("runs"),
-        (false, false) => Some("cut off"),
+        (true, _) => Some(t("runs")),
+        (false, false) => Some(t("cut off")),
         (false, true) => None,
     };
-    let asked = RwSignal::new(false);
     view! {
         <tr data-testid="recording" data-name=name() data-whole=kept.whole.to_string()>
             <td>
                 <input
                     type="checkbox"
-                    aria-label="Compare"
+                    aria-label=t("Compare")
                     prop:checked=move || chosen.with(|chosen| chosen.contains(&name()))
                     on:change:target=move |event| choose(event.target().checked())
                 />
@@ -112,19 +117,19 @@ fn Row(recordings: Recordings, kept: Kept, chosen: RwSignal<Vec<String>>) -> imp
             <td class="number">{time_text(kept.written)}</td>
             <td class="number">{size_text(kept.size)}</td>
             <td class="doors">
-                <button data-testid="replay" disabled=kept.runs on:click=move |_| recordings.replay(name())>"Replay"</button>
-                <button data-testid="save" on:click=move |_| recordings.send(&Wish::Fetch(name()))>"Save"</button>
-                {move || match asked.get() {
-                    false => view! {
-                        <button class="quiet" data-testid="delete" disabled=kept.runs on:click=move |_| asked.set(true)>"Delete…"</button>
-                    }.into_any(),
-                    true => view! {
-                        <button data-testid="delete-confirm" on:click=move |_| recordings.send(&Wish::Delete(name()))>
-                            "Delete for good"
-                        </button>
-                        <button class="quiet" on:click=move |_| asked.set(false)>"Keep"</button>
-                    }.into_any(),
-                }}
+                <button data-testid="replay" disabled=kept.runs on:click=move |_| recordings.replay(name())>{t("Replay")}</button>
+                <button data-testid="save" on:click=move |_| recordings.send(&Wish::Fetch(name()))>{t("Save")}</button>
+                <button
+                    class="quiet"
+                    data-testid="delete"
+                    disabled=kept.runs
+                    on:click=move |_| {
+                        chosen.update(|chosen| chosen.retain(|known| *known != name()));
+                        recordings.delete(name());
+                    }
+                >
+                    {t("Delete")}
+                </button>
             </td>
         </tr>
     }
@@ -136,7 +141,7 @@ fn OpenFile(recordings: Recordings) -> impl IntoView {
     let chooser = NodeRef::<html::Input>::new();
     view! {
         <label class="button">
-            "Open a recording or support file"
+            {t("Open a recording or support file")}
             <input
                 type="file"
                 class="unseen"

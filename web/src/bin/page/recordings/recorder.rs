@@ -1,7 +1,11 @@
 //! Making a recording.
 
-use super::{Recordings, clock_text, size_text};
+use super::{Recordings, clock_text, retold, size_text};
 use crate::app::{App, Source};
+use encoderscope::{
+    language::{msg, t},
+    text,
+};
 use encoderscope_web::{
     browser::property,
     message::{Place, Recording, Wish},
@@ -11,6 +15,9 @@ use leptos::prelude::*;
 use wasm_bindgen::JsCast;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::StorageManager;
+
+/// A note of which nothing else is said, before its number.
+pub(super) const MARKER: &str = msg("marker ");
 
 /// Starts and ends a recording, and leaves notes in it.
 #[component]
@@ -27,6 +34,7 @@ pub(crate) fn RecordButton() -> impl IntoView {
                 let storage: StorageManager = storage;
                 let _ = storage.persist();
             }
+            recordings.notes.set_value(0);
             recordings.send(&Wish::Record);
         }
     };
@@ -40,7 +48,7 @@ pub(crate) fn RecordButton() -> impl IntoView {
                     aria-pressed=move || runs.get().to_string()
                     on:click=press
                 >
-                    {move || if runs.get() { "Stop recording" } else { "Record" }}
+                    {move || if runs.get() { t("Stop recording") } else { t("Record") }}
                 </button>
                 {move || recording.get().filter(|one| one.runs).map(|one| view! {
                     <span class="number" data-testid="recorded" data-value=one.size.to_string()>
@@ -61,21 +69,23 @@ fn Remarks(recording: Recording) -> impl IntoView {
     view! {
         {in_memory.then(|| view! {
             <p class="hint" data-testid="record-memory">
-                "This browser keeps no files for this page: the recording is in memory alone, and gone with "
-                "the page. Save it when it has ended."
+                {t(
+                    "This browser keeps no files for this page: the recording is in memory alone, and gone with \
+                     the page. Save it when it has ended.",
+                )}
             </p>
         })}
         {recording.copy.map(|name| view! {
             <p class="hint" data-testid="record-copy">{match recording.runs {
-                true => format!("Also written to {name}, which is there when the recording has ended."),
-                false => format!("Also written to {name}."),
+                true => text!("Also written to {}, which is there when the recording has ended.", name),
+                false => text!("Also written to {}.", name),
             }}</p>
         })}
         {recording.fault.map(|why| view! {
             <p class="fault" role="alert" data-testid="record-fault">
                 {match recording.runs {
-                    true => why,
-                    false => format!("The recording has ended: {why} What came before is kept."),
+                    true => retold(&why),
+                    false => text!("The recording has ended: {} What came before is kept.", retold(&why)),
                 }}
             </p>
         })}
@@ -85,15 +95,14 @@ fn Remarks(recording: Recording) -> impl IntoView {
 /// Notes, and the copy on disk.
 #[component]
 fn Notes(recordings: Recordings) -> impl IntoView {
-    let note = RwSignal::new(String::new());
-    let count = RwSignal::new(1);
+    let note = recordings.note;
     let leave = move || {
+        recordings.notes.update_value(|notes| *notes += 1);
         let text = note.get_untracked();
         let text = match text.trim() {
-            "" => format!("marker {}", count.get_untracked()),
+            "" => format!("{MARKER}{}", recordings.notes.get_value()),
             text => text.to_owned(),
         };
-        count.update(|count| *count += 1);
         note.set(String::new());
         recordings.send(&Wish::Mark(text));
     };
@@ -108,12 +117,12 @@ fn Notes(recordings: Recordings) -> impl IntoView {
         >
             <input
                 name="note"
-                aria-label="Note"
-                placeholder="what happens now"
+                aria-label=t("Note")
+                placeholder=t("what happens now")
                 prop:value=move || note.get()
                 on:input:target=move |event| note.set(event.target().value())
             />
-            <button data-testid="record-mark">"Mark"</button>
+            <button data-testid="record-mark">{t("Mark")}</button>
         </form>
         {can_copy.then(|| view! {
             <button
@@ -121,7 +130,7 @@ fn Notes(recordings: Recordings) -> impl IntoView {
                 data-testid="record-to-disk"
                 on:click=move |_| leptos::task::spawn_local(copy(recordings))
             >
-                "Write it to disk as well…"
+                {t("Write it to disk as well…")}
             </button>
         })}
     }

@@ -1,7 +1,11 @@
 //! The controls of a replay.
 
-use super::{Recordings, size_text};
+use super::{Recordings, noted, size_text};
 use crate::app::{App, Source};
+use encoderscope::{
+    language::{msg, t},
+    text,
+};
 use encoderscope_web::{
     browser::time_text,
     message::{Replay, Wish},
@@ -12,12 +16,12 @@ use leptos::prelude::*;
 const SPEEDS: [(f64, &str); 8] = [
     (0.01, "1/100"),
     (0.1, "1/10"),
-    (1.0, "as it was"),
+    (1.0, msg("as it was")),
     (2.0, "2×"),
     (10.0, "10×"),
     (100.0, "100×"),
     (1000.0, "1 000×"),
-    (f64::INFINITY, "at once"),
+    (f64::INFINITY, msg("at once")),
 ];
 
 /// Steps of the place in the recording.
@@ -29,8 +33,7 @@ pub(crate) fn ReplayBar() -> impl IntoView {
     let recordings = Recordings::of(app);
     let replay = Memo::new(move |_| recordings.state.with(|state| state.replay.clone()));
     let exists = Memo::new(move |_| replay.with(Option::is_some));
-    // The speed that it goes on with when it is held.
-    let speed = RwSignal::new(1.0);
+    let speed = recordings.speed;
     let of = move |read: fn(&Replay) -> f64| {
         Memo::new(move |_| replay.with(|replay| replay.as_ref().map_or(0.0, read)))
     };
@@ -68,13 +71,13 @@ pub(crate) fn ReplayBar() -> impl IntoView {
                 <div class="doors">
                     <button class="primary" data-testid="replay-play" on:click=press>
                         {move || match (ended(), now.get() > 0.0) {
-                            (true, _) => "Once more",
-                            (false, true) => "Hold",
-                            (false, false) => "Play",
+                            (true, _) => t("Once more"),
+                            (false, true) => t("Hold"),
+                            (false, false) => t("Play"),
                         }}
                     </button>
                     <label>
-                        <span class="unseen">"Speed"</span>
+                        <span class="unseen">{t("Speed")}</span>
                         <select
                             name="replay-speed"
                             data-testid="replay-speed"
@@ -90,13 +93,13 @@ pub(crate) fn ReplayBar() -> impl IntoView {
                         >
                             {SPEEDS.iter().enumerate().map(|(index, (value, text))| {
                                 let value = *value;
-                                view! { <option value=index.to_string() selected=move || speed.get() == value>{*text}</option> }
+                                view! { <option value=index.to_string() selected=move || speed.get() == value>{t(text)}</option> }
                             }).collect_view()}
                         </select>
                     </label>
                 </div>
                 <label class="place">
-                    <span class="unseen">"Place in the recording"</span>
+                    <span class="unseen">{t("Place in the recording")}</span>
                     <input
                         type="range"
                         min="0"
@@ -114,17 +117,17 @@ pub(crate) fn ReplayBar() -> impl IntoView {
                         time if time > 0.0 => time_text(time),
                         _ => "–".into(),
                     }}
-                    {move || ended().then_some(" · the end")}
+                    {move || ended().then(|| t(" · the end"))}
                 </p>
-                {move || adapter.get().filter(|name| !name.is_empty()).map(|name| view! { <p class="hint">"Recorded with " {name}</p> })}
+                {move || adapter.get().filter(|name| !name.is_empty()).map(|name| view! { <p class="hint">{text!("Recorded with {}", t(&name))}</p> })}
                 {move || (lost.get() > 0.0).then(|| view! {
                     <p class="fault" data-testid="replay-lost" data-value=lost.get().to_string()>
-                        {size_text(lost.get())} " of the file cannot be read."
+                        {text!("{} of the file cannot be read.", size_text(lost.get()))}
                     </p>
                 })}
                 <ul class="notes">
                     {move || notes.get().into_iter().rev().map(|(at, text)| view! {
-                        <li><span class="number">{time_text(at)}</span> " " {text}</li>
+                        <li><span class="number">{time_text(at)}</span> " " {noted(&text)}</li>
                     }).collect_view()}
                 </ul>
             </div>

@@ -1,10 +1,14 @@
 //! The support file: what the page shows and what was said on the line of late, in one file that
 //! shows the same page elsewhere. It carries no names and no addresses.
 
-use super::{Recordings, clock_text, size_text};
+use super::{Recordings, clock_text, noted, size_text};
 use crate::{
     app::{App, Source},
     doctor,
+};
+use encoderscope::{
+    language::{in_english, msg, t},
+    text,
 };
 use encoderscope_web::{
     browser::{property, system, time_text},
@@ -16,6 +20,9 @@ use js_sys::{Array, JSON};
 use leptos::prelude::*;
 use serde::{Deserialize, Serialize};
 use wasm_bindgen::JsValue;
+
+/// Letters of a time, with the space behind it.
+const TIME: usize = "2026-01-01 00:00:00 ".len();
 
 /// What stands in front of a support file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -35,6 +42,9 @@ pub(super) struct Report {
     remark: String,
     /// The ladder of the link, and what the page says of it.
     link: Vec<String>,
+    /// The same in the language that is spoken; nothing in a report that was opened.
+    #[serde(skip)]
+    link_said: Vec<String>,
     /// What happened of late, with its time.
     history: Vec<String>,
     /// What was said on the line of late: how long, in seconds, and how many bytes.
@@ -59,8 +69,8 @@ impl Report {
         let adapter = match (app.source.get_untracked(), app.port.get_untracked()) {
             (Source::Port, Some(port)) => serial::kind(port),
             (Source::Port, None) => String::new(),
-            (Source::Replay, _) => "a recording".into(),
-            (Source::Demo | Source::Preview, _) => "built-in encoder".into(),
+            (Source::Replay, _) => msg("a recording").into(),
+            (Source::Demo | Source::Preview, _) => msg("built-in encoder").into(),
         };
         Self {
             encoderscope: env!("CARGO_PKG_VERSION").into(),
@@ -70,7 +80,8 @@ impl Report {
             adapter,
             profile: query(&profile),
             remark,
-            link: untrack(|| doctor::findings(app)),
+            link: in_english(|| untrack(|| doctor::findings(app))),
+            link_said: untrack(|| doctor::findings(app)),
             history: story
                 .happenings
                 .iter()
@@ -78,7 +89,7 @@ impl Report {
                 .collect(),
             seconds: story.seconds,
             bytes: story.size,
-            snapshot: app.snapshot.get_untracked(),
+            snapshot: (*story.snapshot).clone(),
         }
     }
 
@@ -117,8 +128,7 @@ fn browser() -> String {
 #[component]
 pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
     let app = recordings.app;
-    let remark = RwSignal::new(String::new());
-    let wanted = RwSignal::new(false);
+    let (wanted, remark) = (recordings.hands, recordings.remark);
     let report = Memo::new(move |_| {
         let story = recordings.story.get()?;
         wanted.get().then(|| Report::of(app, &story, remark.get()))
@@ -129,13 +139,13 @@ pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
         wanted.set(true);
     };
     view! {
-        <button data-testid="report" on:click=open>"Support file…"</button>
+        <button data-testid="report" on:click=open>{t("Support file…")}</button>
         {move || (wanted.get() && recordings.story.with(Option::is_some)).then(|| view! {
             <div class="support" data-testid="report-preview">
-                <h3>"What goes into the support file"</h3>
+                <h3>{t("What goes into the support file")}</h3>
                 {move || report.get().map(|report| view! { <Contents report=report /> })}
                 <label class="remark">
-                    "What you saw, in your own words"
+                    {t("What you saw, in your own words")}
                     <textarea
                         name="remark"
                         prop:value=move || remark.get()
@@ -143,8 +153,10 @@ pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
                     />
                 </label>
                 <p class="hint">
-                    "Names of adapters, files and people are not in it, nor any address. Nothing is sent: you save "
-                    "the file, and hand it to whom you like."
+                    {t(
+                        "Names of adapters, files and people are not in it, nor any address. Nothing is sent: you save \
+                         the file, and hand it to whom you like.",
+                    )}
                 </p>
                 <div class="doors">
                     <button
@@ -156,9 +168,9 @@ pub(super) fn Handing(recordings: Recordings) -> impl IntoView {
                             }
                         }
                     >
-                        "Save"
+                        {t("Save")}
                     </button>
-                    <button class="quiet" on:click=move |_| wanted.set(false)>"Close"</button>
+                    <button class="quiet" on:click=move |_| wanted.set(false)>{t("Close")}</button>
                 </div>
             </div>
         })}
@@ -172,10 +184,12 @@ pub(super) fn Opened(recordings: Recordings) -> impl IntoView {
         recordings.opened.get().map(|report| {
             view! {
                 <section class="panel support" data-testid="report-opened">
-                    <h2>"Support file"</h2>
+                    <h2>{t("Support file")}</h2>
                     <p>
-                        "The console shows what it showed when the file was made. "
-                        "Play replays what was said on the line before."
+                        {t(
+                            "The console shows what it showed when the file was made. Play replays what was said on \
+                             the line before.",
+                        )}
                     </p>
                     <Contents report=report />
                 </section>
@@ -187,18 +201,28 @@ pub(super) fn Opened(recordings: Recordings) -> impl IntoView {
 #[component]
 fn Contents(report: Report) -> impl IntoView {
     let whole = report.text();
-    let lists = [("The link", report.link), ("What happened", report.history)];
+    let link = match report.link_said.is_empty() {
+        true => report.link,
+        false => report.link_said,
+    };
+    // Behind the time that each line begins with.
+    let happened = |line: String| match line.split_at_checked(TIME) {
+        Some((time, text)) => [time, &noted(text)].concat(),
+        None => line,
+    };
+    let history = report.history.into_iter().map(happened).collect();
+    let lists = [(t("The link"), link), (t("What happened"), history)];
     let rows = [
-        ("Made", report.made),
+        (t("Made"), report.made),
         ("Encoderscope", report.encoderscope),
-        ("Browser", report.browser),
-        ("System", report.system),
-        ("Adapter", report.adapter),
-        ("Encoder", report.profile),
-        ("Remark", report.remark),
+        (t("Browser"), report.browser),
+        (t("System"), report.system),
+        (t("Adapter"), t(&report.adapter).to_owned()),
+        (t("Encoder"), report.profile),
+        (t("Remark"), report.remark),
         (
-            "On the line",
-            format!(
+            t("On the line"),
+            text!(
                 "the last {}, {}",
                 clock_text(report.seconds),
                 size_text(report.bytes)
@@ -217,7 +241,7 @@ fn Contents(report: Report) -> impl IntoView {
             </details>
         })).collect_view()}
         <details>
-            <summary>"Every word of it"</summary>
+            <summary>{t("Every word of it")}</summary>
             <pre data-testid="report-text">{whole}</pre>
         </details>
     }

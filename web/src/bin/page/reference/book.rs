@@ -2,7 +2,7 @@
 
 use super::{kinds, topic::Topic};
 use crate::app::App;
-use encoderscope::{calculator::Calculator, profile::Profile};
+use encoderscope::{calculator::Calculator, language::t, profile::Profile};
 use encoderscope_web::link::{Fragment, encode, query};
 use leptos::prelude::*;
 
@@ -96,16 +96,16 @@ impl Section {
         }
     }
 
-    pub(super) const fn title(self) -> &'static str {
+    pub(super) fn title(self) -> &'static str {
         match self {
-            Self::Parameters => "Parameters",
-            Self::Frames => "Frames",
-            Self::Commands => "Requests",
-            Self::Sequences => "Sequences",
-            Self::Status => "Status bits",
-            Self::Timing => "Timing",
-            Self::Checks => "Checks",
-            Self::Errata => "Where manuals err",
+            Self::Parameters => t("Parameters"),
+            Self::Frames => t("Frames"),
+            Self::Commands => t("Requests"),
+            Self::Sequences => t("Sequences"),
+            Self::Status => t("Status bits"),
+            Self::Timing => t("Timing"),
+            Self::Checks => t("Checks"),
+            Self::Errata => t("Where manuals err"),
         }
     }
 }

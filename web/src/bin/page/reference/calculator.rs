@@ -5,7 +5,11 @@ use crate::{
     app::App,
     handout::{copy, save_text},
 };
-use encoderscope::calculator::{Answer, Calculator, Code, Fault, Input, Kind, Outcome, Tone};
+use encoderscope::{
+    calculator::{Answer, Calculator, Code, Fault, Input, Kind, Outcome, Tone},
+    language::t,
+    text,
+};
 use leptos::prelude::*;
 
 #[component]
@@ -19,13 +23,13 @@ pub(super) fn Page(calculator: &'static Calculator) -> impl IntoView {
     view! {
         <article class="sheet" data-testid="calculator" data-name=calculator.name>
             <header class="head">
-                <h1>{calculator.title}</h1>
-                <p class="about">{calculator.about}</p>
+                <h1>{t(calculator.title)}</h1>
+                <p class="about">{t(calculator.about)}</p>
             </header>
-            <section class="part" aria-label="What is given">
+            <section class="part" aria-label=t("What is given")>
                 <div class="form">{inputs.collect_view()}</div>
             </section>
-            <section class="part" aria-label="What follows" aria-live="polite">
+            <section class="part" aria-label=t("What follows") aria-live="polite">
                 {move || match outcome.get() {
                     Ok(outcome) => view! { <Answers outcome=outcome /> }.into_any(),
                     Err(fault) => view! {
@@ -35,7 +39,7 @@ pub(super) fn Page(calculator: &'static Calculator) -> impl IntoView {
                     }.into_any(),
                 }}
             </section>
-            <p class="source">"Source: " {calculator.source}</p>
+            <p class="source">{t("Source: ")} {t(calculator.source)}</p>
             <CopyLink />
         </article>
     }
@@ -92,7 +96,7 @@ fn Field(input: &'static Input, outcome: Memo<Result<Outcome, Fault>>) -> impl I
                 {words
                     .iter()
                     .map(|word| view! {
-                        <option value=word.name selected=move || value() == word.name>{word.title}</option>
+                        <option value=word.name selected=move || value() == word.name>{t(word.title)}</option>
                     })
                     .collect_view()}
             </select>
@@ -114,9 +118,9 @@ fn Field(input: &'static Input, outcome: Memo<Result<Outcome, Fault>>) -> impl I
     };
     view! {
         <div class="asked">
-            <label for=id>{input.title}</label>
-            <span class="entered">{control} <span class="unit">{input.unit()}</span></span>
-            <p class="hint" id=hint>{input.doc}</p>
+            <label for=id>{t(input.title)}</label>
+            <span class="entered">{control} <span class="unit">{input.unit_title()}</span></span>
+            <p class="hint" id=hint>{t(input.doc)}</p>
         </div>
     }
 }
@@ -126,14 +130,14 @@ fn Answers(outcome: Outcome) -> impl IntoView {
     let rows = outcome.answers.into_iter().map(answer);
     let code = outcome.code.map(|code| view! { <Program code=code /> });
     view! {
-        <Scroll label="Answers".to_owned()>
+        <Scroll label=t("Answers").to_owned()>
             <table class="answers">
-                <caption class="unseen">"Answers"</caption>
+                <caption class="unseen">{t("Answers")}</caption>
                 <thead class="unseen">
                     <tr>
-                        <th scope="col">"what"</th>
-                        <th scope="col">"answer"</th>
-                        <th scope="col">"to know"</th>
+                        <th scope="col">{t("what")}</th>
+                        <th scope="col">{t("answer")}</th>
+                        <th scope="col">{t("to know")}</th>
                     </tr>
                 </thead>
                 <tbody>{rows.collect_view()}</tbody>
@@ -150,19 +154,19 @@ fn Program(code: Code) -> impl IntoView {
     let (copied, saved) = (code.text.clone(), code.text.clone());
     view! {
         <div class="program">
-            <h2>{code.title}</h2>
-            <Scroll label=code.title.to_owned()>
+            <h2>{t(code.title)}</h2>
+            <Scroll label=t(code.title).to_owned()>
                 <pre data-testid="calculator-code">{code.text}</pre>
             </Scroll>
             <p class="doors">
                 <button
                     data-testid="copy-code"
-                    on:click=move |_| copy(copied.clone(), said, "Program copied.")
+                    on:click=move |_| copy(copied.clone(), said, t("Program copied."))
                 >
-                    "Copy the program"
+                    {t("Copy the program")}
                 </button>
                 <button data-testid="save-code" on:click=move |_| save_text(&saved, code.file)>
-                    {format!("Save as {}", code.file)}
+                    {text!("Save as {}", code.file)}
                 </button>
                 <span role="status" class="hint">{move || said.get()}</span>
             </p>
@@ -185,7 +189,7 @@ fn answer(answer: Answer) -> impl IntoView {
             data-value=answer.number.map(|number| number.to_string())
         >
             <th scope="row">{answer.title}</th>
-            <td class=format!("answer {tone}") class:words=is_said>{sign} {answer.text}</td>
+            <td class=format!("answer {}", tone) class:words=is_said>{sign} {answer.text}</td>
             <td class="words doc">{answer.note}</td>
         </tr>
     }
@@ -200,9 +204,9 @@ pub(super) fn CopyLink() -> impl IntoView {
         <p class="doors">
             <button
                 data-testid="copy-link"
-                on:click=move |_| copy(untrack(|| app.address()), said, "Link copied.")
+                on:click=move |_| copy(untrack(|| app.address()), said, t("Link copied."))
             >
-                "Copy link"
+                {t("Copy link")}
             </button>
             <span role="status" class="hint">{move || said.get()}</span>
         </p>

@@ -8,8 +8,10 @@ use super::{
 use encoderscope::{
     bits::{Bits, Span},
     check::{Algorithm, Checksum, Step, Walk},
+    language::t,
     layout::{Covered, Field},
     profile::Profile,
+    text,
 };
 use leptos::prelude::*;
 
@@ -95,20 +97,20 @@ fn view_of(check: &Check) -> impl IntoView + use<> {
     let from = kind.frame.layout.layout.title();
     view! {
         <section
-            class="kind check-of"
+            class="kind"
             data-testid="reference-check"
             data-field=field.row.name
             data-kind=kind.key.clone()
             data-value=walk.result.to_string()
             data-received=check.received.to_string()
         >
-            <h3><span class="name check">{title.clone()}</span> " " <small>{sum.name()}</small></h3>
+            <h3><span class="name check">{title.clone()}</span> " " <small>{t(sum.name())}</small></h3>
             <div class="halves">
                 <div>
                     {sum.algorithm().map(facts)}
                     <p class="covers">
-                        "It covers " {over} {format!(" = {} bits of “{from}”", walk.steps.len())}
-                        {(check.covered == Covered::Frame).then_some(", its own taken as 0")} "."
+                        {t("It covers ")} {over} {text!(" = {} bits of “{}”", walk.steps.len(), from)}
+                        {(check.covered == Covered::Frame).then_some(t(", its own taken as 0"))} "."
                     </p>
                     {sum.algorithm().map(|crc| table(&title, crc))}
                 </div>
@@ -133,28 +135,31 @@ impl Check {
         }
         names
             .into_iter()
-            .map(|(name, class)| view! { <span class=format!("name {class}")>{name}</span> " " })
+            .map(|(name, class)| view! { <span class=format!("name {}", class)>{name}</span> " " })
             .collect_view()
     }
 }
 
 /// The parameters of a CRC.
 fn facts(crc: Algorithm) -> impl IntoView {
-    let word = |yes: bool| if yes { "yes" } else { "no" };
+    let word = |yes: bool| if yes { t("yes") } else { t("no") };
     let sample = Bits::of_bytes(SAMPLE);
     let facts = [
-        ("catalogue", crc.name().unwrap_or("no name").to_owned()),
-        ("width", format!("{} bits", crc.width)),
         (
-            "polynomial",
+            t("catalogue"),
+            crc.name().map_or(t("no name"), t).to_owned(),
+        ),
+        (t("width"), text!("{} bits", crc.width)),
+        (
+            t("polynomial"),
             format!("0x{}", hex(crc.polynomial, crc.width)),
         ),
-        ("init", format!("0x{}", hex(crc.init, crc.width))),
-        ("bytes reflected", word(crc.refin).to_owned()),
-        ("result reflected", word(crc.refout).to_owned()),
-        ("xorout", format!("0x{}", hex(crc.xorout, crc.width))),
+        (t("init"), format!("0x{}", hex(crc.init, crc.width))),
+        (t("bytes reflected"), word(crc.refin).to_owned()),
+        (t("result reflected"), word(crc.refout).to_owned()),
+        (t("xorout"), format!("0x{}", hex(crc.xorout, crc.width))),
         (
-            "check of “123456789”",
+            t("check of “123456789”"),
             format!(
                 "0x{}",
                 hex(crc.compute(sample, Span::new(0, sample.len())), crc.width)
@@ -186,7 +191,7 @@ fn worked(check: &Check) -> impl IntoView + use<> {
             .map(|run| {
                 let class = run.first().map_or("none", class);
                 let bits: String = run.iter().map(level).collect();
-                view! { <span class=format!("name {class}")>{bits}</span> }
+                view! { <span class=format!("name {}", class)>{bits}</span> }
             })
             .collect();
         let after = steps.last().map_or(walk.start, |step| step.register);
@@ -203,29 +208,31 @@ fn worked(check: &Check) -> impl IntoView + use<> {
     let last = walk.steps.last().map_or(walk.start, |step| step.register);
     let mut steps = String::new();
     if walk.algorithm.refout {
-        steps += "→ read backwards ";
+        steps += t("→ read backwards ");
     }
     if walk.algorithm.xorout != 0 {
-        steps += "→ inverted ";
+        steps += t("→ inverted ");
     }
     let ending = (!steps.is_empty()).then(|| format!("{} {steps}", register(last, width)));
     let (begins, result) = (register(walk.start, width), register(walk.result, width));
     let good = walk.result == check.received;
     let verdict = match good {
-        true => view! { <span class="good">"= received ✓"</span> }.into_any(),
-        false => view! { <span class="bad">"≠ received " {register(check.received, width)}</span> }
-            .into_any(),
+        true => view! { <span class="good">{t("= received ✓")}</span> }.into_any(),
+        false => {
+            view! { <span class="bad">{t("≠ received ")} {register(check.received, width)}</span> }
+                .into_any()
+        }
     };
     view! {
-        <Scroll label="Worked example".to_owned()>
+        <Scroll label=t("Worked example").to_owned()>
             <table class="worked">
-                <caption>"The example, worked: the register begins at " {begins}</caption>
+                <caption>{t("The example, worked: the register begins at ")} {begins}</caption>
                 <thead>
                     <tr>
-                        <th scope="col">"from bit"</th>
-                        <th scope="col">"goes in"</th>
-                        <th scope="col">"hex"</th>
-                        <th scope="col">"register"</th>
+                        <th scope="col">{t("from bit")}</th>
+                        <th scope="col">{t("goes in")}</th>
+                        <th scope="col">{t("hex")}</th>
+                        <th scope="col">{t("register")}</th>
                     </tr>
                 </thead>
                 <tbody>{rows}</tbody>
@@ -254,10 +261,10 @@ fn table(title: &str, crc: Algorithm) -> impl IntoView + use<> {
     let heads: Vec<_> = (0..columns.min(count))
         .map(|column| view! { <th scope="col">{format!("+{column:X}")}</th> })
         .collect();
-    let label = format!("Table of {title}");
+    let label = text!("Table of {}", title);
     view! {
         <details class="crc-table" data-testid="reference-table">
-            <summary>{format!("The table of {count} entries, computed")}</summary>
+            <summary>{text!("The table of {} entries, computed", count)}</summary>
             <Scroll label=label.clone()>
                 <table>
                     <caption class="unseen">{label}</caption>

@@ -4,6 +4,7 @@ use super::book::Book;
 use crate::app::App;
 use encoderscope::{
     calculator::Fault,
+    language::t,
     product::{Interface, Series},
     wiring::encoder,
 };
@@ -43,23 +44,23 @@ pub(super) fn EncoderChoice() -> impl IntoView {
         }
         let words = all.into_iter();
         words
-            .map(|interface| (interface.key(), interface.title()))
+            .map(|interface| (interface.key(), t(interface.title())))
             .collect::<Vec<_>>()
     });
-    let all = Series::ALL.map(|series| (series.key(), series.name()));
+    let all = Series::ALL.map(|series| (series.key(), t(series.name())));
     view! {
         <Choice
             name="series"
-            title="Series"
-            hint="the first part of the order code"
+            title=t("Series")
+            hint=t("the first part of the order code")
             words=all.to_vec()
             chosen=series
             clears=&["interface", "battery", "adapter"]
         />
         <Choice
             name="interface"
-            title="Interface"
-            hint="MPP and PT: the letter behind the bits"
+            title=t("Interface")
+            hint=t("MPP and PT: the letter behind the bits")
             words=offered
             chosen=interface
             clears=&["adapter"]

@@ -4,9 +4,11 @@ use super::{Part, Scroll, book::Section, kinds::Kind};
 use encoderscope::{
     explain::grouped,
     format::{Format, bus::Operation, rs485::Command, t485::Request},
+    language::t,
     layout::{Layout, Resolved, Shape},
     profile::Profile,
     sequence::{Change, Expect, Script, Step},
+    text,
 };
 use leptos::prelude::*;
 
@@ -43,7 +45,7 @@ pub(super) fn asked(profile: &Profile) -> Vec<Asked> {
             .iter()
             .map(|request| Asked {
                 byte: request.byte(),
-                sign: request.name().replace('-', " "),
+                sign: t(&request.name().replace('-', " ")).to_owned(),
                 title: request.title(),
                 lengths: (bytes(request.request()), bytes(request.reply())),
                 changes: request.changes_encoder(),
@@ -71,32 +73,29 @@ pub(super) fn asks_for(kind: &Kind) -> Option<&'static str> {
     let byte = *kind.bits().bytes().first()?;
     let mut all = asked(&kind.profile).into_iter();
     let asked = all.find(|asked| !kind.is_reply() && asked.byte == byte)?;
-    Some(asked.title)
+    Some(t(asked.title))
 }
 
 #[component]
 pub(super) fn Commands(profile: Profile) -> impl IntoView {
-    let plural = |count: usize| match count {
-        1 => "1 byte".to_owned(),
-        count => format!("{count} bytes"),
-    };
+    let plural = |count: usize| text!("{} {0|byte|bytes}", count);
     let rows: Vec<_> = asked(&profile)
         .into_iter()
         .map(|asked| {
             let (there, back) = asked.lengths;
             let effect = match (asked.is_known, asked.changes) {
                 (false, _) => {
-                    view! { <td class="words doc">"not known to the encoders of this page"</td> }
+                    view! { <td class="words doc">{t("not known to the encoders of this page")}</td> }
                         .into_any()
                 }
-                (true, true) => view! { <td class="words changes">"yes"</td> }.into_any(),
-                (true, false) => view! { <td class="words">"no"</td> }.into_any(),
+                (true, true) => view! { <td class="words changes">{t("yes")}</td> }.into_any(),
+                (true, false) => view! { <td class="words">{t("no")}</td> }.into_any(),
             };
             view! {
                 <tr data-testid="reference-request" data-value=asked.byte>
                     <td><b>{format!("0x{:02X}", asked.byte)}</b></td>
                     <td>{asked.sign}</td>
-                    <th scope="row">{asked.title}</th>
+                    <th scope="row">{t(asked.title)}</th>
                     <td>{plural(there)}</td>
                     <td>{plural(back)}</td>
                     {effect}
@@ -105,8 +104,11 @@ pub(super) fn Commands(profile: Profile) -> impl IntoView {
         })
         .collect();
     let caption = match profile.format {
-        Format::Bus => format!("Requests to the device 0x{:02X}", profile.address),
-        _ => "Requests".to_owned(),
+        Format::Bus => text!(
+            "Requests to the device 0x{}",
+            format_args!("{:02X}", profile.address)
+        ),
+        _ => t("Requests").to_owned(),
     };
     view! {
         <Part profile=profile section=Section::Commands>
@@ -115,12 +117,12 @@ pub(super) fn Commands(profile: Profile) -> impl IntoView {
                     <caption>{caption}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"byte"</th>
-                            <th scope="col">"sign"</th>
-                            <th scope="col">"asks for"</th>
-                            <th scope="col">"request"</th>
-                            <th scope="col">"reply"</th>
-                            <th scope="col">"changes the encoder"</th>
+                            <th scope="col">{t("byte")}</th>
+                            <th scope="col">{t("sign")}</th>
+                            <th scope="col">{t("asks for")}</th>
+                            <th scope="col">{t("request")}</th>
+                            <th scope="col">{t("reply")}</th>
+                            <th scope="col">{t("changes the encoder")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows}</tbody>
@@ -142,7 +144,7 @@ pub(super) fn Sequences(profile: Profile) -> impl IntoView {
     view! {
         <Part profile=profile section=Section::Sequences>
             <p class="hint">
-                "Anything unexpected ends them. The encoder acts on the last command alone: until then nothing has changed."
+                {t("Anything unexpected ends them. The encoder acts on the last command alone: until then nothing has changed.")}
             </p>
             {all}
         </Part>
@@ -162,7 +164,7 @@ fn Sequence(profile: Profile, change: Change, script: &'static Script) -> impl I
             <tr class=class>
                 <td class="doc words">{when}</td>
                 <td><b>{bytes.join(" ")}</b></td>
-                <th scope="row">{step.send.title()}</th>
+                <th scope="row">{t(step.send.title())}</th>
                 <td class="words">{back}</td>
             </tr>
         }
@@ -173,17 +175,17 @@ fn Sequence(profile: Profile, change: Change, script: &'static Script) -> impl I
         .enumerate()
         .map(|(index, step)| {
             let when = match (index, script.rounds) {
-                (0, 1) if script.round.len() > 1 => "in order",
-                (0, 1) => "once",
-                (0, 10) => "ten times in a row",
-                (0, _) => "each round",
+                (0, 1) if script.round.len() > 1 => t("in order"),
+                (0, 1) => t("once"),
+                (0, 10) => t("ten times in a row"),
+                (0, _) => t("each round"),
                 _ => "",
             };
             row(when, step, "round")
         })
         .collect();
     let rests = (script.settles > 0).then(|| {
-        let rests = format!(
+        let rests = text!(
             "Then the encoder is silent for up to {} ms. ",
             grouped(script.settles / 1000)
         );
@@ -191,26 +193,26 @@ fn Sequence(profile: Profile, change: Change, script: &'static Script) -> impl I
     });
     view! {
         <section class="kind" data-testid="reference-sequence" data-value=script.title>
-            <h3>{script.title}</h3>
-            <Scroll label=script.title.to_owned()>
+            <h3>{t(script.title)}</h3>
+            <Scroll label=t(script.title).to_owned()>
                 <table class="sequence">
-                    <caption class="unseen">{format!("Steps of {}", script.title)}</caption>
+                    <caption class="unseen">{text!("Steps of {}", t(script.title))}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"when"</th>
-                            <th scope="col">"bytes"</th>
-                            <th scope="col">"command"</th>
-                            <th scope="col">"must come back"</th>
+                            <th scope="col">{t("when")}</th>
+                            <th scope="col">{t("bytes")}</th>
+                            <th scope="col">{t("command")}</th>
+                            <th scope="col">{t("must come back")}</th>
                         </tr>
                     </thead>
                     <tbody>
-                        {row("first", &script.before, "")}
+                        {row(t("first"), &script.before, "")}
                         {rounds}
-                        {row("last", &script.after, "")}
+                        {row(t("last"), &script.after, "")}
                     </tbody>
                 </table>
             </Scroll>
-            <p class="hint">{rests} "It is done when " {script.proof.to_string()} "."</p>
+            <p class="hint">{rests} {t("It is done when ")} {script.proof.to_string()} "."</p>
         </section>
     }
 }

@@ -7,7 +7,9 @@ use super::{
 use crate::app::App;
 use encoderscope::{
     errata::{ERRATA, Erratum},
+    language::t,
     profile::Profile,
+    text,
 };
 use leptos::prelude::*;
 
@@ -40,9 +42,9 @@ pub(super) fn All() -> impl IntoView {
     view! {
         <article class="sheet" data-testid="reference-errata">
             <header class="head">
-                <h1>"Errors in the manuals"</h1>
+                <h1>{t("Errors in the manuals")}</h1>
                 <p class="about">
-                    {format!("{count} places where the manuals contradict themselves, or the wire, and the reading that was chosen.")}
+                    {text!("{} places where the manuals contradict themselves, or the wire, and the reading that was chosen.", count)}
                 </p>
             </header>
             <ol class="errors">{all}</ol>
@@ -59,7 +61,7 @@ fn item(erratum: &'static Erratum, href: String) -> impl IntoView {
         .iter()
         .map(|format| {
             let href = link(&format.default_profile(), None);
-            view! { " " <a href=href>{format.title()}</a> }
+            view! { " " <a href=href>{t(format.title())}</a> }
         })
         .collect();
     let marked = move || book.is_marked(&mark);
@@ -73,11 +75,11 @@ fn item(erratum: &'static Erratum, href: String) -> impl IntoView {
             data-testid="erratum"
             data-value=erratum.number
         >
-            <a class="number" href=href aria-label=format!("Erratum {}", erratum.number)>{erratum.number}</a>
-            <p class="place"><b>{erratum.place}</b> {formats}</p>
-            <p class="wrong"><span class="tag">"it says"</span> <q>{erratum.says}</q></p>
-            <p class="right"><span class="tag">"right is"</span> {erratum.right}</p>
-            <p class="why"><span class="tag">"because"</span> {erratum.because}</p>
+            <a class="number" href=href aria-label=text!("Erratum {}", erratum.number)>{erratum.number}</a>
+            <p class="place"><b>{t(erratum.place)}</b> {formats}</p>
+            <p class="wrong"><span class="tag">{t("it says")}</span> <q>{t(erratum.says)}</q></p>
+            <p class="right"><span class="tag">{t("right is")}</span> {t(erratum.right)}</p>
+            <p class="why"><span class="tag">{t("because")}</span> {t(erratum.because)}</p>
         </li>
     }
 }

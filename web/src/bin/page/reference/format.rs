@@ -13,7 +13,8 @@ use super::{
 };
 use crate::app::App;
 use encoderscope::{
-    capture::Frequency, explain::grouped, format::Link, profile::Profile, sequence::Change,
+    capture::Frequency, explain::grouped, format::Link, language::t, profile::Profile,
+    sequence::Change, text,
 };
 use encoderscope_web::link::query;
 use leptos::prelude::*;
@@ -34,8 +35,8 @@ impl Facts {
             (Link::Clocked, Some(timing)) => {
                 format!("{}…{}", hertz(timing.slowest), hertz(timing.fastest))
             }
-            (Link::Clocked, None) => "the encoder's data sheet says".to_owned(),
-            _ => format!("{} baud", grouped(profile.baud.into())),
+            (Link::Clocked, None) => t("the encoder's data sheet says").to_owned(),
+            _ => text!("{} baud", grouped(profile.baud.into())),
         };
         let sums = main.map(|kind| {
             let fields = kind.frame.layout.fields();
@@ -48,16 +49,18 @@ impl Facts {
         let widest = sums.unwrap_or_default().first().map(|(_, sum)| *sum);
         Self {
             wires: match link {
-                Link::Clocked => "clock and data",
-                Link::Polled => "serial, asked",
-                Link::Stream => "serial, unasked",
+                Link::Clocked => t("clock and data"),
+                Link::Polled => t("serial, asked"),
+                Link::Stream => t("serial, unasked"),
             },
             length: main.map(Kind::length).unwrap_or_default(),
             rate,
             check: match widest.map(|sum| (sum.name(), sum.algorithm())) {
-                None => "none".to_owned(),
-                Some((name, None)) => name.to_owned(),
-                Some((_, Some(crc))) => crc.name().map_or(crc.to_string(), str::to_owned),
+                None => t("none").to_owned(),
+                Some((name, None)) => t(name).to_owned(),
+                Some((_, Some(crc))) => crc
+                    .name()
+                    .map_or(crc.to_string(), |name| t(name).to_owned()),
             },
         }
     }
@@ -118,29 +121,29 @@ pub(super) fn Page() -> impl IntoView {
 fn Head(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl IntoView {
     let main = kinds.with_value(|kinds| kinds::main(kinds).cloned());
     let facts = Facts::of(&profile, main.as_ref());
-    let about = profile.format.spec().about;
+    let about = profile.format.manual().about;
     let same = query(&profile);
     let explain = main
         .as_ref()
         .map_or(format!("#/explain?{same}"), Kind::explainer);
     let facts = [
-        ("link", facts.wires.to_owned()),
-        ("frame", facts.length),
-        ("rate", facts.rate),
-        ("check", facts.check),
-        ("manual", profile.source().to_owned()),
+        (t("link"), facts.wires.to_owned()),
+        (t("frame"), facts.length),
+        (t("rate"), facts.rate),
+        (t("check"), facts.check),
+        (t("manual"), t(profile.source()).to_owned()),
     ];
     let facts = facts.map(|(name, value)| view! { <div><dt>{name}</dt><dd>{value}</dd></div> });
     view! {
         <header class="head">
-            <h1>{profile.title()}</h1>
-            <p class="about">{about} "."</p>
+            <h1>{t(profile.title())}</h1>
+            <p class="about">{t(about)} "."</p>
             <dl class="facts">{facts.into_view()}</dl>
             {main.as_ref().map(strip)}
             <p class="ways">
-                {profile.is_serial().then(|| view! { <a href=format!("#/console?{same}")>"Read one"</a> })}
-                <a href=format!("#/decode?{same}")>"Decode a dump"</a>
-                <a href=explain>"Take this frame apart"</a>
+                {profile.is_serial().then(|| view! { <a href=format!("#/console?{same}")>{t("Read one")}</a> })}
+                <a href=format!("#/decode?{same}")>{t("Decode a dump")}</a>
+                <a href=explain>{t("Take this frame apart")}</a>
             </p>
         </header>
     }
@@ -163,7 +166,7 @@ fn Parameters(profile: Profile) -> impl IntoView {
             let words = Profile::words(name).iter().zip(Profile::word_docs(name));
             let words: Vec<_> = words
                 .map(|(word, doc)| {
-                    let doc = doc.trim().trim_end_matches('.');
+                    let doc = t(doc.trim()).trim_end_matches('.');
                     view! { <div><b>{*word}</b> " " <span class="doc">{doc}</span></div> }
                 })
                 .collect();
@@ -176,7 +179,7 @@ fn Parameters(profile: Profile) -> impl IntoView {
             view! {
                 <tr data-testid="reference-parameter" data-name=*name>
                     <th scope="row">{*name}</th>
-                    <td class="words">{Profile::doc(name)}</td>
+                    <td class="words">{t(Profile::doc(name))}</td>
                     <td class="choices">{words} {range}</td>
                     <td>{was}</td>
                     <td class="here" class:changed=changed>{is}</td>
@@ -189,26 +192,26 @@ fn Parameters(profile: Profile) -> impl IntoView {
     view! {
         <Part profile=profile section=Section::Parameters>
             <p class="hint">
-                "Their names in links; the same on the command line, and in JavaScript in camelCase."
-                {both.then(|| format!(" Angle and turns have at most {} bits together.", limits.together))}
+                {t("Their names in links; the same on the command line, and in JavaScript in camelCase.")}
+                {both.then(|| text!(" Angle and turns have at most {} bits together.", limits.together))}
             </p>
-            <Scroll label="Parameters".to_owned()>
+            <Scroll label=t("Parameters").to_owned()>
                 <table class="parameters">
-                    <caption class="unseen">"Parameters"</caption>
+                    <caption class="unseen">{t("Parameters")}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"name"</th>
-                            <th scope="col">"what it is"</th>
-                            <th scope="col">"can be"</th>
-                            <th scope="col">"default"</th>
-                            <th scope="col">"on this page"</th>
+                            <th scope="col">{t("name")}</th>
+                            <th scope="col">{t("what it is")}</th>
+                            <th scope="col">{t("can be")}</th>
+                            <th scope="col">{t("default")}</th>
+                            <th scope="col">{t("on this page")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows}</tbody>
                 </table>
             </Scroll>
             <p class="example-link">
-                "The profile of this page, as a link has it: "
+                {t("The profile of this page, as a link has it: ")}
                 <code>{query(&profile)}</code>
             </p>
         </Part>

@@ -11,19 +11,21 @@ use encoderscope::{
     bits,
     dump::Direction,
     explain::Note,
+    language::t,
     layout::{Active, Coding, Field, Resolved, Role},
     profile::{Profile, TurnsCode},
+    text,
 };
 use leptos::prelude::*;
 
 #[component]
 pub(super) fn Frames(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl IntoView {
     let order = match profile.is_serial() {
-        true => {
+        true => t(
             "Bits are counted from 0 in the order in which frames are written: byte by byte, the \
-             most significant bit first. A UART sends the least significant bit of each byte first."
-        }
-        false => "Bits are counted from 0 in the order in which they are sent.",
+             most significant bit first. A UART sends the least significant bit of each byte first.",
+        ),
+        false => t("Bits are counted from 0 in the order in which they are sent."),
     };
     let kinds = kinds.get_value();
     // The head of the page has drawn the only one.
@@ -47,12 +49,12 @@ pub(super) fn Frames(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl In
 #[component]
 fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
     let goes = match kind.frame.direction {
-        Direction::Sent => "the master sends",
-        Direction::Received => "the encoder sends",
+        Direction::Sent => t("the master sends"),
+        Direction::Received => t("the encoder sends"),
     };
     let title = kind.frame.title.clone();
     let asks = commands::asks_for(&kind).map(|asks| format!("{asks}; "));
-    let caption = format!("Fields of {title}, in the order in which they are sent");
+    let caption = text!("Fields of {}, in the order in which they are sent", title);
     let notes = kind.notes();
     let fields: Vec<Field> = kind.frame.layout.fields().cloned().collect();
     let rows: Vec<_> = fields
@@ -62,9 +64,9 @@ fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
         .collect();
     let explainer = kind.explainer();
     view! {
-        <section class="kind" aria-label=title.clone()>
+        <section class="kind">
             <h3>
-                {title.clone()}
+                {title}
                 <small>{asks} {goes} " " {kind.length()}</small>
             </h3>
             {drawn}
@@ -73,18 +75,18 @@ fn Frame(kind: Kind, drawn: Option<AnyView>) -> impl IntoView {
                     <caption class="unseen">{caption}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"bits"</th>
-                            <th scope="col">"field"</th>
-                            <th scope="col">"width"</th>
-                            <th scope="col">"coding"</th>
-                            <th scope="col">"what it is"</th>
-                            <th scope="col">"in the example"</th>
+                            <th scope="col">{t("bits")}</th>
+                            <th scope="col">{t("field")}</th>
+                            <th scope="col">{t("width")}</th>
+                            <th scope="col">{t("coding")}</th>
+                            <th scope="col">{t("what it is")}</th>
+                            <th scope="col">{t("in the example")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows}</tbody>
                 </table>
             </Scroll>
-            <p class="ways"><a href=explainer>"Take it apart"</a></p>
+            <p class="ways"><a href=explainer>{t("Take it apart")}</a></p>
         </section>
     }
 }
@@ -120,7 +122,7 @@ pub(super) fn strip(kind: &Kind) -> impl IntoView + use<> {
         }
     };
     view! {
-        <div class="strip" class:bytes=serial role="img" aria-label=format!("example: {text}")>
+        <div class="strip" class:bytes=serial role="img" aria-label=text!("example: {}", text)>
             {strip}
         </div>
     }
@@ -169,7 +171,7 @@ fn Row(kind: Kind, field: Field, note: Note) -> impl IntoView {
     let bytes = kind.profile.is_serial().then(|| {
         let first = spans.iter().map(|(from, _)| from / 8).min().unwrap_or(0);
         let last = spans.iter().map(|(_, to)| to / 8).max().unwrap_or(0);
-        let word = if first == last { "byte" } else { "bytes" };
+        let word = if first == last { t("byte") } else { t("bytes") };
         view! { <div class="doc">{word} " " {range(first, last)}</div> }
     });
     let says = match note.text.is_empty() {
@@ -192,12 +194,12 @@ fn Row(kind: Kind, field: Field, note: Note) -> impl IntoView {
             data-kind=kind.key.clone()
         >
             <td>{bits} {bytes}</td>
-            <th scope="row"><a class=format!("name {class}") href=href>{kinds::title(&field)}</a></th>
+            <th scope="row"><a class=format!("name {}", class) href=href>{kinds::title(&field)}</a></th>
             <td>{field.width}</td>
             <td class="words">{coding(layout, &field)}</td>
             <td class="words">{note.doc}</td>
             <td class="words">
-                <a class="quiet" href=kind.explainer() aria-label=format!("{} in the explainer: {says}", kinds::title(&field))>{says.clone()}</a>
+                <a class="quiet" href=kind.explainer() aria-label=text!("{} in the explainer: {}", kinds::title(&field), says)>{says.clone()}</a>
             </td>
         </tr>
     }
@@ -230,12 +232,15 @@ fn coding(layout: &Resolved, field: &Field) -> String {
     let row = field.row;
     let width = field.width as usize;
     if let Some(value) = row.constant.filter(|_| row.role != Role::Padding) {
-        return format!("always {:0width$b}", value & bits::mask(width));
+        return text!(
+            "always {}",
+            format_args!("{:0width$b}", value & bits::mask(width))
+        );
     }
     if let Some((sum, _)) = field.cover {
         return match sum.algorithm() {
             Some(crc) => crc.to_string(),
-            None => sum.name().to_owned(),
+            None => t(sum.name()).to_owned(),
         };
     }
     let parts = layout.parts(field);
@@ -243,26 +248,28 @@ fn coding(layout: &Resolved, field: &Field) -> String {
     let backwards = starts().zip(starts().skip(1)).any(|(one, next)| next < one);
     let signed = layout.shape.profile.turns_code == TurnsCode::Signed;
     let number = match (row.role, row.active) {
-        (Role::Padding, _) => "always 0",
-        (Role::Speed | Role::Temperature, _) => "two's complement, tenths",
-        (Role::Turns, _) if signed => "two's complement",
-        (Role::Turns | Role::Angle | Role::Count, _) => "unsigned",
+        (Role::Padding, _) => t("always 0"),
+        (Role::Speed | Role::Temperature, _) => t("two's complement, tenths"),
+        (Role::Turns, _) if signed => t("two's complement"),
+        (Role::Turns | Role::Angle | Role::Count, _) => t("unsigned"),
         (Role::Error | Role::Warning | Role::Valid | Role::ZeroDefault, Active::High) => {
-            "1 says so"
+            t("1 says so")
         }
-        (Role::Error | Role::Warning | Role::Valid | Role::ZeroDefault, Active::Low) => "0 says so",
-        (Role::Status | Role::Alarm, Active::High) => "a bit a condition, 1 says so",
-        (Role::Status | Role::Alarm, Active::Low) => "a bit a condition, 0 says so",
-        (Role::Repeat, _) => "as the word before",
-        (Role::Framing, _) => "any",
-        _ => "code",
+        (Role::Error | Role::Warning | Role::Valid | Role::ZeroDefault, Active::Low) => {
+            t("0 says so")
+        }
+        (Role::Status | Role::Alarm, Active::High) => t("a bit a condition, 1 says so"),
+        (Role::Status | Role::Alarm, Active::Low) => t("a bit a condition, 0 says so"),
+        (Role::Repeat, _) => t("as the word before"),
+        (Role::Framing, _) => t("any"),
+        _ => t("code"),
     };
     let order = match layout.coding(field) {
-        Some((Coding::Gray, word)) if word.len > width => ", Gray, one word with its neighbour",
-        Some((Coding::Gray, _)) => ", Gray",
-        Some((Coding::Decimal, _)) => ", in ASCII digits",
-        None if backwards => ", little-endian",
-        None if parts.len() > 1 => ", in parts, most significant first",
+        Some((Coding::Gray, word)) if word.len > width => t(", Gray, one word with its neighbour"),
+        Some((Coding::Gray, _)) => t(", Gray"),
+        Some((Coding::Decimal, _)) => t(", in ASCII digits"),
+        None if backwards => t(", little-endian"),
+        None if parts.len() > 1 => t(", in parts, most significant first"),
         None => "",
     };
     format!("{number}{order}")

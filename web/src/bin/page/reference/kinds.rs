@@ -6,9 +6,11 @@ use encoderscope::{
     dump::Direction,
     explain::Note,
     format::{Format, rs485::Command},
+    language::t,
     layout::{Field, Resolved},
     profile::Profile,
     sketch::{FrameKind, Sketch},
+    text,
 };
 use encoderscope_web::link::{encode, query};
 
@@ -61,11 +63,9 @@ impl Kind {
 
 /// A number of bits in words: bytes, where a UART sends them.
 pub(super) fn length(profile: &Profile, bits: usize) -> String {
-    match (profile.is_serial(), bits) {
-        (true, 8) => "1 byte".to_owned(),
-        (true, bits) => format!("{} bytes", bits / 8),
-        (false, 1) => "1 bit".to_owned(),
-        (false, bits) => format!("{bits} bits"),
+    match profile.is_serial() {
+        true => text!("{} {0|byte|bytes}", bits / 8),
+        false => text!("{} {0|bit|bits}", bits),
     }
 }
 
@@ -122,7 +122,7 @@ pub(super) fn main(kinds: &[Kind]) -> Option<&Kind> {
 
 /// What a field is called on the page.
 pub(super) fn title(field: &Field) -> String {
-    field.row.name.replace('_', " ")
+    t(field.row.name).replace('_', " ")
 }
 
 /// A run of bits of one field, of a serial format within one byte.

@@ -3,6 +3,7 @@
 use super::{Part, Scroll, book::Section, kinds::Kind};
 use encoderscope::{
     format::blinks,
+    language::{msg, t},
     layout::{Active, Field, Role},
     profile::Profile,
 };
@@ -10,14 +11,14 @@ use leptos::prelude::*;
 
 /// A field of named bits or a flag, and what its bits mean.
 pub(super) struct Table {
-    title: String,
+    title: &'static str,
     bits: Vec<Meaning>,
 }
 
 #[derive(PartialEq)]
 struct Meaning {
     place: Option<u32>,
-    name: String,
+    name: &'static str,
     level: u8,
     doc: String,
     blinks: bool,
@@ -27,21 +28,21 @@ struct Meaning {
 pub(super) fn tables(kinds: &[Kind]) -> Vec<Table> {
     let mut tables: Vec<Table> = Vec::new();
     let replies = kinds.iter().filter(|kind| kind.is_reply());
-    let fields = replies.flat_map(|kind| kind.frame.layout.fields());
+    let fields = replies.flat_map(|kind| kind.frame.layout.fields().zip(kind.notes()));
     let mut flags = Vec::new();
-    for field in fields {
+    for (field, note) in fields {
         let flag = matches!(
             field.row.role,
             Role::Error | Role::Warning | Role::Valid | Role::ZeroDefault
         );
         if flag {
-            let meaning = flag_of(field);
+            let meaning = flag_of(field, note.doc);
             if !flags.contains(&meaning) {
                 flags.push(meaning);
             }
         }
         let table = Table {
-            title: field.row.name.replace('_', " "),
+            title: field.row.name,
             bits: named(field),
         };
         let known = |other: &Table| other.title == table.title && other.bits == table.bits;
@@ -53,7 +54,7 @@ pub(super) fn tables(kinds: &[Kind]) -> Vec<Table> {
         tables.insert(
             0,
             Table {
-                title: "flags".to_owned(),
+                title: msg("flags"),
                 bits: flags,
             },
         );
@@ -68,13 +69,12 @@ const fn level(active: Active) -> u8 {
     }
 }
 
-fn flag_of(field: &Field) -> Meaning {
-    let lines: Vec<_> = field.row.doc.iter().map(|line| line.trim()).collect();
+fn flag_of(field: &Field, doc: String) -> Meaning {
     Meaning {
         place: None,
-        name: field.row.name.replace('_', " "),
+        name: field.row.name,
         level: level(field.row.active),
-        doc: lines.join(" "),
+        doc,
         blinks: false,
     }
 }
@@ -84,9 +84,9 @@ fn named(field: &Field) -> Vec<Meaning> {
     bits.filter(|bit| bit.place < field.width)
         .map(|bit| Meaning {
             place: Some(bit.place),
-            name: bit.name.to_owned(),
+            name: bit.name,
             level: level(field.row.active),
-            doc: bit.doc.to_owned(),
+            doc: t(bit.doc).to_owned(),
             blinks: blinks(bit.name),
         })
         .collect()
@@ -98,6 +98,7 @@ pub(super) fn Status(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl In
         .with_value(|kinds| tables(kinds))
         .into_iter()
         .map(|table| {
+            let title = t(table.title).replace('_', " ");
             let leds = table.bits.iter().any(|bit| bit.blinks);
             let rows: Vec<_> = table
                 .bits
@@ -105,15 +106,15 @@ pub(super) fn Status(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl In
                 .map(|bit| {
                     let place = bit
                         .place
-                        .map_or("flag".to_owned(), |place| format!("b{place}"));
+                        .map_or(t("flag").to_owned(), |place| format!("b{place}"));
                     let led = match bit.blinks {
-                        true => "blinks once a second",
+                        true => t("blinks once a second"),
                         false => "",
                     };
                     view! {
-                        <tr data-testid="reference-status" data-name=bit.name.clone()>
+                        <tr data-testid="reference-status" data-name=bit.name.replace('_', " ")>
                             <td><b>{place}</b> " = " {bit.level}</td>
-                            <th scope="row">{bit.name.clone()}</th>
+                            <th scope="row">{t(bit.name).replace('_', " ")}</th>
                             <td class="words">{bit.doc}</td>
                             {leds.then(|| view! { <td class="words">{led}</td> })}
                         </tr>
@@ -121,15 +122,15 @@ pub(super) fn Status(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl In
                 })
                 .collect();
             view! {
-                <Scroll label=table.title.clone()>
+                <Scroll label=title.clone()>
                     <table>
-                        <caption>{table.title}</caption>
+                        <caption>{title}</caption>
                         <thead>
                             <tr>
-                                <th scope="col">"bit"</th>
-                                <th scope="col">"name"</th>
-                                <th scope="col">"what it means, and what to do"</th>
-                                {leds.then(|| view! { <th scope="col">"LED"</th> })}
+                                <th scope="col">{t("bit")}</th>
+                                <th scope="col">{t("name")}</th>
+                                <th scope="col">{t("what it means, and what to do")}</th>
+                                {leds.then(|| view! { <th scope="col">{t("LED")}</th> })}
                             </tr>
                         </thead>
                         <tbody>{rows}</tbody>

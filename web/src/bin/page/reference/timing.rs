@@ -10,7 +10,9 @@ use encoderscope::{
     diagram::{Master, Timeline},
     explain::grouped,
     format::timing::{SECOND, Words},
+    language::{msg, t},
     profile::Profile,
+    text,
 };
 use leptos::prelude::*;
 
@@ -33,20 +35,16 @@ pub(super) fn times(profile: &Profile, kinds: &[Kind]) -> Vec<Time> {
             Duration(bits.saturating_mul(SECOND / i64::from(profile.baud.max(1)))).to_string()
         };
         times.push(Time {
-            name: "rate",
-            text: format!(
-                "{} baud, 8 bits, the least significant first, no parity, 1 stop bit, no flow control: a byte lasts {}",
-                grouped(profile.baud.into()),
-                lasts(8)
-            ),
+            name: msg("rate"),
+            text: text!("{} baud, 8 bits, the least significant first, no parity, 1 stop bit, no flow control: a byte lasts {}", grouped(profile.baud.into()), lasts(8)),
             source,
         });
         if let Some(kind) = main {
             let bits = kind.bits().len();
             times.push(Time {
-                name: "frame",
-                text: format!("{} last {}", length(profile, bits), lasts(bits)),
-                source: "computed",
+                name: msg("frame"),
+                text: text!("{} last {}", length(profile, bits), lasts(bits)),
+                source: t("computed"),
             });
         }
     }
@@ -64,8 +62,8 @@ pub(super) fn times(profile: &Profile, kinds: &[Kind]) -> Vec<Time> {
         .filter(|timing| timing.words == Words::Ring)
     {
         times.push(Time {
-            name: "more clocks",
-            text: "the same word again, a 0 between".to_owned(),
+            name: msg("more clocks"),
+            text: t("the same word again, a 0 between").to_owned(),
             source: timing.source,
         });
     }
@@ -80,23 +78,23 @@ pub(super) fn Timing(profile: Profile, kinds: StoredValue<Vec<Kind>>) -> impl In
         .map(|time| {
             view! {
                 <tr data-testid="reference-time" data-name=time.name>
-                    <th scope="row">{time.name}</th>
+                    <th scope="row">{t(time.name)}</th>
                     <td>{time.text}</td>
-                    <td class="words doc">{time.source}</td>
+                    <td class="words doc">{t(time.source)}</td>
                 </tr>
             }
         })
         .collect();
     view! {
         <Part profile=profile section=Section::Timing>
-            <Scroll label="Timing".to_owned()>
+            <Scroll label=t("Timing").to_owned()>
                 <table>
-                    <caption class="unseen">"Timing"</caption>
+                    <caption class="unseen">{t("Timing")}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"what"</th>
-                            <th scope="col">"how long or how fast"</th>
-                            <th scope="col">"manual"</th>
+                            <th scope="col">{t("what")}</th>
+                            <th scope="col">{t("how long or how fast")}</th>
+                            <th scope="col">{t("manual")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows}</tbody>

@@ -7,6 +7,7 @@ mod registers;
 mod wiring;
 mod zero;
 
+use encoderscope::language::t;
 use leptos::prelude::*;
 
 /// A matter of products and wiring.
@@ -48,30 +49,32 @@ impl Topic {
         }
     }
 
-    pub(super) const fn title(self) -> &'static str {
+    pub(super) fn title(self) -> &'static str {
         match self {
-            Self::OrderCode => "Order codes",
-            Self::Products => "Sizes and characteristics",
-            Self::Wiring => "Wiring",
-            Self::Zero => "Setting the zero",
-            Self::Lamp => "Lamp and status",
-            Self::Registers => "APCI-1710 registers",
+            Self::OrderCode => t("Order codes"),
+            Self::Products => t("Sizes and characteristics"),
+            Self::Wiring => t("Wiring"),
+            Self::Zero => t("Setting the zero"),
+            Self::Lamp => t("Lamp and status"),
+            Self::Registers => t("APCI-1710 registers"),
         }
     }
 
     /// What it answers, in a sentence.
-    pub(super) const fn about(self) -> &'static str {
+    pub(super) fn about(self) -> &'static str {
         match self {
-            Self::OrderCode => {
-                "What the label says: format, widths, rate and wires of an order code, and what is wrong with one."
+            Self::OrderCode => t(
+                "What the label says: format, widths, rate and wires of an order code, and what is wrong with one.",
+            ),
+            Self::Products => {
+                t("What the manuals promise of each series, and the sizes it comes in.")
             }
-            Self::Products => "What the manuals promise of each series, and the sizes it comes in.",
-            Self::Wiring => "Which wire goes where, with terminators, supply and battery.",
-            Self::Zero => "How the zero of each product is set, step by step.",
-            Self::Lamp => "What the lamp shows, what the status bits say, and what to do.",
-            Self::Registers => {
-                "The registers of Addi-Data's APCI-1710 and CPCI-1710, bit by bit, and what the encoder sent."
-            }
+            Self::Wiring => t("Which wire goes where, with terminators, supply and battery."),
+            Self::Zero => t("How the zero of each product is set, step by step."),
+            Self::Lamp => t("What the lamp shows, what the status bits say, and what to do."),
+            Self::Registers => t(
+                "The registers of Addi-Data's APCI-1710 and CPCI-1710, bit by bit, and what the encoder sent.",
+            ),
         }
     }
 

@@ -11,8 +11,10 @@ use encoderscope::{
     calculator::Fault,
     format::STATUS,
     lamp::{BATTERY, Cause, Flag, Health, Lamp, Light, ReadBit, Rhythm, about, flags},
+    language::t,
     layout::{Active, Role},
     product::{Interface, Series},
+    text,
 };
 use leptos::prelude::*;
 
@@ -58,28 +60,28 @@ pub(super) fn Page() -> impl IntoView {
         let fault = asked.with(|asked| asked.as_ref().err().map(|fault| fault.input));
         (fault == Some("status")).then_some("true")
     };
-    let lights = Light::ALL.map(|light| (light.name(), light.name()));
+    let lights = Light::ALL.map(|light| (light.name(), t(light.name())));
     view! {
-        <section class="part" aria-label="What is seen">
+        <section class="part" aria-label=t("What is seen")>
             <div class="form">
                 <Choice
                     name="lamp"
-                    title="The lamp is"
-                    hint="of MPP and PT"
+                    title=t("The lamp is")
+                    hint=t("of MPP and PT")
                     words=lights.to_vec()
                     chosen=lamp
                     clears=&["status"]
                 />
                 <Choice
                     name="blinking"
-                    title="It blinks"
-                    hint="once a second"
-                    words=vec![("no", "no"), ("yes", "yes")]
+                    title=t("It blinks")
+                    hint=t("once a second")
+                    words=vec![("no", t("no")), ("yes", t("yes"))]
                     chosen=blinking
                     clears=&["status"]
                 />
                 <div class="asked">
-                    <label for="lamp-status">"Or the status byte is"</label>
+                    <label for="lamp-status">{t("Or the status byte is")}</label>
                     <span class="entered">
                         <input
                             id="lamp-status"
@@ -92,11 +94,11 @@ pub(super) fn Page() -> impl IntoView {
                             on:input:target=move |event| enter(event.target().value())
                         />
                     </span>
-                    <p class="hint" id="lamp-status-hint">"two hex digits, or eight bits with b7 first"</p>
+                    <p class="hint" id="lamp-status-hint">{t("two hex digits, or eight bits with b7 first")}</p>
                 </div>
             </div>
         </section>
-        <section class="part" aria-label="What it means" aria-live="polite">
+        <section class="part" aria-label=t("What it means") aria-live="polite">
             {move || match asked.get() {
                 Ok(Asked::Lamp(lamp)) => match lamp.causes() {
                     Ok(causes) => view! { <Seen lamp=lamp causes=causes /> }.into_any(),
@@ -110,7 +112,7 @@ pub(super) fn Page() -> impl IntoView {
         <Places />
         <BatteryBits />
         <section class="part" aria-labelledby="lamp-series">
-            <h2 id="lamp-series">"Which encoders have what"</h2>
+            <h2 id="lamp-series">{t("Which encoders have what")}</h2>
             <ul class="warnings">
                 {[Series::Mpp, Series::Ip75, Series::Avs58]
                     .map(|series| view! { <li data-testid="lamp-series">{about(series)}</li> })
@@ -130,7 +132,7 @@ fn Refused(fault: Fault) -> impl IntoView {
 fn Shows(lamp: Lamp) -> impl IntoView {
     let blinking = lamp.rhythm == Rhythm::Blinking;
     let text = match blinking {
-        true => format!("{}, blinking", lamp.light.meaning()),
+        true => text!("{}, blinking", lamp.light.meaning()),
         false => lamp.light.meaning().to_owned(),
     };
     view! {
@@ -142,7 +144,7 @@ fn Shows(lamp: Lamp) -> impl IntoView {
         >
             <b>{text}</b>
         </p>
-        <p class="remedy">"What to do: " {lamp.remedy()} "."</p>
+        <p class="remedy">{t("What to do: ")} {lamp.remedy()} "."</p>
     }
 }
 
@@ -156,9 +158,9 @@ fn Seen(lamp: Lamp, causes: Vec<Cause>) -> impl IntoView {
     view! {
         <Shows lamp=lamp />
         {match none {
-            true => view! { <p class="hint">"It stands for no status bit."</p> }.into_any(),
+            true => view! { <p class="hint">{t("It stands for no status bit.")}</p> }.into_any(),
             false => view! {
-                <Bits caption="At least one of these is set">{rows}</Bits>
+                <Bits caption=t("At least one of these is set")>{rows}</Bits>
             }.into_any(),
         }}
     }
@@ -180,7 +182,7 @@ fn Read(health: Health) -> impl IntoView {
     view! {
         <Shows lamp=health.lamp() />
         {(!odd.is_empty()).then(|| view! { <ul class="warnings">{odd}</ul> })}
-        <Bits caption="The byte, bit by bit">{rows}</Bits>
+        <Bits caption=t("The byte, bit by bit")>{rows}</Bits>
     }
 }
 
@@ -192,10 +194,10 @@ fn Bits(caption: &'static str, children: Children) -> impl IntoView {
                 <caption>{caption}</caption>
                 <thead>
                     <tr>
-                        <th scope="col">"bit"</th>
-                        <th scope="col">"name"</th>
-                        <th scope="col">"what it says"</th>
-                        <th scope="col">"what to do"</th>
+                        <th scope="col">{t("bit")}</th>
+                        <th scope="col">{t("name")}</th>
+                        <th scope="col">{t("what it says")}</th>
+                        <th scope="col">{t("what to do")}</th>
                     </tr>
                 </thead>
                 <tbody>{children()}</tbody>
@@ -221,9 +223,9 @@ fn Bit(
             class:quiet=set == Some(false)
         >
             <td><b>{format!("b{place}")}</b> {value}</td>
-            <th scope="row">{name}</th>
-            <td class="words">{text}</td>
-            <td class="words doc">{remedy}</td>
+            <th scope="row">{t(name)}</th>
+            <td class="words">{t(text)}</td>
+            <td class="words doc">{t(remedy)}</td>
         </tr>
     }
 }
@@ -259,7 +261,7 @@ fn Places() -> impl IntoView {
         let profile = interface.format().default_profile();
         view! {
             <tr data-testid="lamp-place" data-name=interface.key()>
-                <th scope="row"><a href=link(&profile, None)>{interface.title()}</a></th>
+                <th scope="row"><a href=link(&profile, None)>{t(interface.title())}</a></th>
                 <td data-name="error">{of(Role::Error)}</td>
                 <td data-name="warning">{of(Role::Warning)}</td>
                 <td class="words" data-name="status">{status}</td>
@@ -269,20 +271,20 @@ fn Places() -> impl IntoView {
     });
     view! {
         <section class="part" aria-labelledby="lamp-places">
-            <h2 id="lamp-places">"Where the bits stand"</h2>
+            <h2 id="lamp-places">{t("Where the bits stand")}</h2>
             <p class="hint">
-                "Clocked frames count from their last bit, b0, on; the others within the byte. Out of the layouts, and as MPP and PT have it in their table of positions."
+                {t("Clocked frames count from their last bit, b0, on; the others within the byte. Out of the layouts, and as MPP and PT have it in their table of positions.")}
             </p>
-            <Scroll label="Where the bits stand".to_owned()>
+            <Scroll label=t("Where the bits stand").to_owned()>
                 <table>
-                    <caption class="unseen">"Places of error, warning and status"</caption>
+                    <caption class="unseen">{t("Places of error, warning and status")}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"interface"</th>
-                            <th scope="col">"error"</th>
-                            <th scope="col">"warning"</th>
-                            <th scope="col">"status"</th>
-                            <th scope="col">"others"</th>
+                            <th scope="col">{t("interface")}</th>
+                            <th scope="col">{t("error")}</th>
+                            <th scope="col">{t("warning")}</th>
+                            <th scope="col">{t("status")}</th>
+                            <th scope="col">{t("others")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows.into_view()}</tbody>
@@ -312,32 +314,32 @@ fn BatteryBits() -> impl IntoView {
         view! {
             <tr data-testid="lamp-battery" data-name=name>
                 <td><b>{format!("b{}", row.place)}</b></td>
-                <th scope="row">{name}</th>
-                <td class="words">{row.warning.unwrap_or("–")}</td>
-                <td class="words">{row.error}</td>
-                <td class="words doc">{row.remedy}</td>
+                <th scope="row">{t(name)}</th>
+                <td class="words">{t(row.warning.unwrap_or("–"))}</td>
+                <td class="words">{t(row.error)}</td>
+                <td class="words doc">{t(row.remedy)}</td>
             </tr>
         }
     });
     view! {
         <section class="part" aria-labelledby="lamp-battery">
-            <h2 id="lamp-battery">"Bits of the battery"</h2>
-            <Scroll label="Bits of the battery".to_owned()>
+            <h2 id="lamp-battery">{t("Bits of the battery")}</h2>
+            <Scroll label=t("Bits of the battery").to_owned()>
                 <table>
-                    <caption class="unseen">"Bits of the battery, models BM"</caption>
+                    <caption class="unseen">{t("Bits of the battery, models BM")}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"bit"</th>
-                            <th scope="col">"name"</th>
-                            <th scope="col">"with the warning bit"</th>
-                            <th scope="col">"with the error bit"</th>
-                            <th scope="col">"what to do"</th>
+                            <th scope="col">{t("bit")}</th>
+                            <th scope="col">{t("name")}</th>
+                            <th scope="col">{t("with the warning bit")}</th>
+                            <th scope="col">{t("with the error bit")}</th>
+                            <th scope="col">{t("what to do")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows.into_view()}</tbody>
                 </table>
             </Scroll>
-            <p class="source">"Source: MPP and PT, status bits"</p>
+            <p class="source">{t("Source: MPP and PT, status bits")}</p>
         </section>
     }
 }

@@ -15,11 +15,13 @@ use composer::{Composer, form_of};
 use encoderscope::{
     explain::grouped,
     format::Link,
+    language::{msg, number, t},
     model::{self, FORMS, Form, Look, Model, ModelError, Place, RULES, Turns},
     product::{
         Interface, Series,
         facts::{CURRENT, SUPPLY},
     },
+    text,
 };
 use encoderscope_web::link::query;
 use leptos::prelude::*;
@@ -45,9 +47,9 @@ pub(super) fn Page() -> impl IntoView {
         Err(_) => None,
     };
     view! {
-        <section class="part" aria-label="The code">
+        <section class="part" aria-label=t("The code")>
             <label class="order-code">
-                "Order code"
+                {t("Order code")}
                 <input
                     data-testid="order-code"
                     placeholder="MPP-20-30-A-24BM-R-N-A-M"
@@ -61,7 +63,7 @@ pub(super) fn Page() -> impl IntoView {
                 />
             </label>
             <p class="hint" id="order-hint">
-                "As it stands on the label: small letters, spaces, any dash and Cyrillic letters are fine."
+                {t("As it stands on the label: small letters, spaces, any dash and Cyrillic letters are fine.")}
             </p>
             <div aria-live="polite">
                 {move || fault().map(|error| view! {
@@ -90,7 +92,7 @@ fn write(book: Book, code: &str) {
 }
 
 fn sentence(error: &ModelError) -> String {
-    format!("Part {}: {}.", error.position, error.message)
+    text!("Part {}: {}.", error.position, error.message)
 }
 
 fn code_link(code: &str) -> String {
@@ -105,7 +107,7 @@ fn Examples() -> impl IntoView {
         view! { <li><a href=code_link(&code)><code>{code.clone()}</code></a></li> }
     });
     view! {
-        <p>"Such as:"</p>
+        <p>{t("Such as:")}</p>
         <ul class="order-examples">{examples.collect_view()}</ul>
     }
 }
@@ -133,15 +135,15 @@ fn Parts(looks: Vec<Look>) -> impl IntoView {
         }
     });
     view! {
-        <Scroll label="Parts of the code".to_owned()>
+        <Scroll label=t("Parts of the code").to_owned()>
             <table class="order-parts">
-                <caption class="unseen">"Parts of the code"</caption>
+                <caption class="unseen">{t("Parts of the code")}</caption>
                 <thead>
                     <tr>
-                        <th scope="col">"part"</th>
-                        <th scope="col">"text"</th>
-                        <th scope="col">"what it is"</th>
-                        <th scope="col">"what it means"</th>
+                        <th scope="col">{t("part")}</th>
+                        <th scope="col">{t("text")}</th>
+                        <th scope="col">{t("what it is")}</th>
+                        <th scope="col">{t("what it means")}</th>
                     </tr>
                 </thead>
                 <tbody>{rows.collect_view()}</tbody>
@@ -156,7 +158,7 @@ fn Meaning(model: Model) -> impl IntoView {
     let rows = conclusions(&model).into_iter().map(|(name, value, note)| {
         view! {
             <tr data-testid="order-meaning" data-name=name>
-                <th scope="row">{name}</th>
+                <th scope="row">{t(name)}</th>
                 <td class="words">{value}</td>
                 <td class="words doc">{note}</td>
             </tr>
@@ -165,16 +167,16 @@ fn Meaning(model: Model) -> impl IntoView {
     let notes = model.notes().into_iter();
     view! {
         <section class="part" aria-labelledby="order-meaning">
-            <h2 id="order-meaning">"What it means"</h2>
+            <h2 id="order-meaning">{t("What it means")}</h2>
             {notes.map(|note| view! { <p class="order-note">{note}</p> }).collect_view()}
             <Doors model=model.clone() />
-            <Scroll label="What it means".to_owned()>
+            <Scroll label=t("What it means").to_owned()>
                 <table class="order-meaning">
-                    <caption class="unseen">"What it means"</caption>
+                    <caption class="unseen">{t("What it means")}</caption>
                     <tbody>{rows.collect_view()}</tbody>
                 </table>
             </Scroll>
-            <p class="source">"Source: " {model.form.source}</p>
+            <p class="source">{t("Source: ")} {t(model.form.source)}</p>
         </section>
     }
 }
@@ -199,11 +201,11 @@ fn Doors(model: Model) -> impl IntoView {
     };
     view! {
         <p class="doors">
-            {profile.is_serial().then(|| door("console", format!("#/console?{query}"), "Read one"))}
-            {door("decode", format!("#/decode?{query}"), "Decode a dump")}
-            {door("format", book::link(&profile, None), "Its frames")}
-            {wiring.map(|href| door("wiring", href, "Wiring"))}
-            {products.map(|href| door("products", href, "Characteristics"))}
+            {profile.is_serial().then(|| door("console", format!("#/console?{query}"), t("Read one")))}
+            {door("decode", format!("#/decode?{query}"), t("Decode a dump"))}
+            {door("format", book::link(&profile, None), t("Its frames"))}
+            {wiring.map(|href| door("wiring", href, t("Wiring")))}
+            {products.map(|href| door("products", href, t("Characteristics")))}
         </p>
     }
 }
@@ -213,68 +215,68 @@ fn conclusions(model: &Model) -> Vec<(&'static str, String, String)> {
     let profile = &model.profile;
     let fact = |name| model.series.and_then(|series| series.fact(name));
     let mut rows = vec![
-        ("series", model.series_name().to_owned(), String::new()),
+        ("series", t(model.series_name()).to_owned(), String::new()),
         (
             "interface",
-            model.interface.title().to_owned(),
-            profile.source().to_owned(),
+            t(model.interface.title()).to_owned(),
+            t(profile.source()).to_owned(),
         ),
         (
-            "bits per turn",
+            msg("bits per turn"),
             profile.angle_bits.to_string(),
             String::new(),
         ),
-        ("turns", turns(model), String::new()),
+        (msg("turns"), turns(model), String::new()),
     ];
     if profile.is_serial() {
         rows.push((
-            "baud rate",
+            msg("baud rate"),
             grouped(profile.baud.into()),
-            "8 bits, no parity, 1 stop bit".to_owned(),
+            t("8 bits, no parity, 1 stop bit").to_owned(),
         ));
     }
     rows.push(match model.frame_bits() {
         Some(bits) => (
-            "frame",
+            msg("frame"),
             match profile.is_serial() {
-                true => format!("{} bytes", bits / 8),
-                false => format!("{bits} bits"),
+                true => text!("{} bytes", bits / 8),
+                false => text!("{} bits", bits),
             },
             match model.interface {
                 Interface::BissC => {
-                    "from the turns or the angle to the CRC, without acknowledge, start and zero"
+                    t("from the turns or the angle to the CRC, without acknowledge, start and zero")
                         .to_owned()
                 }
-                _ => "the reply that is read most".to_owned(),
+                _ => t("the reply that is read most").to_owned(),
             },
         ),
         None => (
-            "frame",
-            "a line of text".to_owned(),
-            "as long as its number".to_owned(),
+            msg("frame"),
+            t("a line of text").to_owned(),
+            t("as long as its number").to_owned(),
         ),
     });
     let requests = model.requests();
     if !requests.is_empty() {
         let list = requests.iter().map(|request| {
             let sign = if request.changes_encoder { " *" } else { "" };
-            format!("0x{:02X} {}{sign}", request.byte, request.title)
+            format!("0x{:02X} {}{sign}", request.byte, t(request.title))
         });
         rows.push((
-            "requests",
+            msg("requests"),
             list.collect::<Vec<_>>().join(", "),
-            "* changes what the encoder holds".to_owned(),
+            t("* changes what the encoder holds").to_owned(),
         ));
     }
     rows.push((
-        "changed by command",
+        msg("changed by command"),
         match (
             model.changes_by_command(),
             model.interface.format().spec().link,
         ) {
-            (true, _) => "yes".to_owned(),
-            (false, Link::Stream) => "no: it only sends".to_owned(),
-            (false, _) => "no: it is only clocked".to_owned(),
+            (true, _) => t("yes").to_owned(),
+            (false, Link::Stream) => t("no: it only sends").to_owned(),
+            (false, _) => t("no: it is only clocked").to_owned(),
         },
         String::new(),
     ));
@@ -282,27 +284,31 @@ fn conclusions(model: &Model) -> Vec<(&'static str, String, String)> {
         if let Some(fact) = fact(name)
             && (name != "battery" || model.has_battery())
         {
-            rows.push((name, fact.value.to_owned(), fact.source.to_owned()));
+            rows.push((name, t(fact.value).to_owned(), t(fact.source).to_owned()));
         }
     }
     if let Some((least, most)) = model.temperature() {
         let said = format!("{}…{most} °C", least.to_string().replace('-', "−"));
-        rows.push(("working temperature", said, String::new()));
+        rows.push((msg("working temperature"), said, String::new()));
     }
     if let Some(size) = model.size() {
         rows.push((
-            "stator",
-            format!(
+            msg("stator"),
+            text!(
                 "⌀ {} mm, screws on ⌀ {} mm",
                 size.stator_diameter(),
-                size.stator_circle
+                number(size.stator_circle)
             ),
-            "the size table has the rest".to_owned(),
+            t("the size table has the rest").to_owned(),
         ));
-        rows.push(("connector", size.connector().to_owned(), String::new()));
+        rows.push((msg("connector"), size.connector().to_owned(), String::new()));
     }
     if let Some(logic) = model.token(Place::Logic) {
-        rows.push(("logic", logic.doc(), "P+F article, table 6".to_owned()));
+        rows.push((
+            msg("logic"),
+            logic.doc(),
+            t("P+F article, table 6").to_owned(),
+        ));
     }
     rows
 }
@@ -310,13 +316,13 @@ fn conclusions(model: &Model) -> Vec<(&'static str, String, String)> {
 fn turns(model: &Model) -> String {
     let bits = model.profile.turns_bits;
     let kept = match model.turns {
-        Turns::Single => return "not counted".to_owned(),
-        Turns::Powered => "0 again after the power was off",
-        Turns::Battery => "counted on the battery while the power is off",
-        Turns::Flash => "kept in flash; without power the shaft may turn by ±90° at most",
-        Turns::Gear => "by a mechanical gear, with or without power",
+        Turns::Single => return t("not counted").to_owned(),
+        Turns::Powered => t("0 again after the power was off"),
+        Turns::Battery => t("counted on the battery while the power is off"),
+        Turns::Flash => t("kept in flash; without power the shaft may turn by ±90° at most"),
+        Turns::Gear => t("by a mechanical gear, with or without power"),
     };
-    format!("{bits} bits, {kept}")
+    text!("{} bits, {}", bits, kept)
 }
 
 /// All that can stand in a code of the form that is open.
@@ -330,12 +336,12 @@ fn Legend(looks: Memo<Vec<Look>>) -> impl IntoView {
                 let words = part.words.iter().enumerate();
                 words.map(move |(index, word)| {
                     let text = match (part.number, word.text) {
-                        (None, "") => "nothing".to_owned(),
+                        (None, "") => t("nothing").to_owned(),
                         (None, text) => text.to_owned(),
                         (Some((least, most, _)), text) => format!("{least}{text} … {most}{text}"),
                     };
-                    let unit = part.number.map_or("", |(_, _, unit)| unit);
-                    let doc = match word.doc {
+                    let unit = part.number.map_or("", |(_, _, unit)| t(unit));
+                    let doc = match t(word.doc) {
                         "" => unit.to_owned(),
                         doc if unit.is_empty() => doc.to_owned(),
                         doc => format!("{unit}, {doc}"),
@@ -358,16 +364,16 @@ fn Legend(looks: Memo<Vec<Look>>) -> impl IntoView {
     };
     view! {
         <section class="part" aria-labelledby="order-legend">
-            <h2 id="order-legend">"All that a code can say"</h2>
-            <Scroll label="All that a code can say".to_owned()>
+            <h2 id="order-legend">{t("All that a code can say")}</h2>
+            <Scroll label=t("All that a code can say").to_owned()>
                 <table>
-                    <caption>{move || format!("{}: {}", form.get().title, form.get().source)}</caption>
+                    <caption>{move || format!("{}: {}", t(form.get().title), t(form.get().source))}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"part"</th>
-                            <th scope="col">"what it is"</th>
-                            <th scope="col">"text"</th>
-                            <th scope="col">"what it means"</th>
+                            <th scope="col">{t("part")}</th>
+                            <th scope="col">{t("what it is")}</th>
+                            <th scope="col">{t("text")}</th>
+                            <th scope="col">{t("what it means")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows}</tbody>
@@ -375,7 +381,7 @@ fn Legend(looks: Memo<Vec<Look>>) -> impl IntoView {
             </Scroll>
             {move || has_rules(form.get()).then(|| view! {
                 <ul class="order-rules">
-                    {RULES.map(|rule| view! { <li>{rule}</li> }).into_view()}
+                    {RULES.map(|rule| view! { <li>{t(rule)}</li> }).into_view()}
                 </ul>
             })}
         </section>

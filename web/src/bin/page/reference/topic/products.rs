@@ -11,11 +11,13 @@ use crate::{
 };
 use encoderscope::{
     calculator::quantity::{self, Measure},
+    language::{msg, number, t},
     product::{
         Series,
         facts::{FACTS, Fact, Group},
         sizes::{Mount, SIZES, Size, THICKNESS},
     },
+    text,
 };
 use leptos::prelude::*;
 
@@ -55,7 +57,7 @@ pub(super) fn Page() -> impl IntoView {
     let options = Series::ALL.map(|series| {
         view! {
             <option value=series.key() prop:selected=move || chosen.get() == Some(series)>
-                {series.name()}
+                {t(series.name())}
             </option>
         }
     });
@@ -76,23 +78,23 @@ pub(super) fn Page() -> impl IntoView {
             .collect_view()
     };
     view! {
-        <section class="part" aria-label="What is shown">
+        <section class="part" aria-label=t("What is shown")>
             <div class="form">
                 <div class="asked">
-                    <label for="product-series">"Series"</label>
+                    <label for="product-series">{t("Series")}</label>
                     <span class="entered">
                         <select
                             id="product-series"
                             data-testid="product-series"
                             on:change:target=move |event| choose(event.target().value())
                         >
-                            <option value="" prop:selected=move || chosen.get().is_none()>"all"</option>
+                            <option value="" prop:selected=move || chosen.get().is_none()>{t("all")}</option>
                             {options.into_view()}
                         </select>
                     </span>
                 </div>
                 <div class="asked">
-                    <label for="product-inner">"Inner diameter of the rotor, at least"</label>
+                    <label for="product-inner">{t("Inner diameter of the rotor, at least")}</label>
                     <span class="entered">
                         <input
                             id="product-inner"
@@ -104,13 +106,13 @@ pub(super) fn Page() -> impl IntoView {
                             prop:value=inner
                             on:input:target=move |event| enter(event.target().value())
                         />
-                        <span class="unit">"mm"</span>
+                        <span class="unit">{t("mm")}</span>
                     </span>
-                    <p class="hint">"As the order code says it; shows the sizes of MPP and PT from there."</p>
+                    <p class="hint">{t("As the order code says it; shows the sizes of MPP and PT from there.")}</p>
                 </div>
             </div>
             {move || least.get().err().map(|why| view! {
-                <p class="fault" role="alert">"Inner diameter: " {why} "."</p>
+                <p class="fault" role="alert">{t("Inner diameter: ")} {why} "."</p>
             })}
         </section>
         {tables}
@@ -140,8 +142,8 @@ fn Product(
         Some(view! { <Sizes title=title sizes=fitting.collect() /> })
     };
     view! {
-        <section class="part" aria-label=title data-testid="product" data-series=title>
-            <h2>{title}</h2>
+        <section class="part" aria-label=t(title) data-testid="product" data-series=title>
+            <h2>{t(title)}</h2>
             <Facts title=title series=series />
             {sizes}
         </section>
@@ -153,13 +155,13 @@ fn Facts(title: &'static str, series: &'static [Series]) -> impl IntoView {
     let mine = |fact: &&Fact| fact.series.iter().any(|known| series.contains(known));
     let row = move |fact: &'static Fact| {
         let is_common = series.iter().all(|series| fact.series.contains(series));
-        let names: Vec<_> = fact.series.iter().map(|series| series.name()).collect();
+        let names: Vec<_> = fact.series.iter().map(|series| t(series.name())).collect();
         let only = (!is_common).then(|| format!(" ({})", names.join(", ")));
         view! {
             <tr data-testid="product-fact" data-name=fact.name>
-                <th scope="row">{fact.name} <span class="doc">{only}</span></th>
-                <td class="words">{fact.value}</td>
-                <td class="words doc">{fact.source}</td>
+                <th scope="row">{t(fact.name)} <span class="doc">{only}</span></th>
+                <td class="words">{t(fact.value)}</td>
+                <td class="words doc">{t(fact.source)}</td>
             </tr>
         }
     };
@@ -179,14 +181,14 @@ fn Facts(title: &'static str, series: &'static [Series]) -> impl IntoView {
         })
     });
     view! {
-        <Scroll label=format!("Characteristics of {title}")>
+        <Scroll label=text!("Characteristics of {}", t(title))>
             <table class="characteristics">
-                <caption class="unseen">{format!("Characteristics of {title}")}</caption>
+                <caption class="unseen">{text!("Characteristics of {}", t(title))}</caption>
                 <thead>
                     <tr>
-                        <th scope="col">"what"</th>
-                        <th scope="col">"how much"</th>
-                        <th scope="col">"manual"</th>
+                        <th scope="col">{t("what")}</th>
+                        <th scope="col">{t("how much")}</th>
+                        <th scope="col">{t("manual")}</th>
                     </tr>
                 </thead>
                 {groups.into_view()}
@@ -198,77 +200,85 @@ fn Facts(title: &'static str, series: &'static [Series]) -> impl IntoView {
 /// The columns of a size table, those of MPP or of PT.
 fn columns(series: Series) -> &'static [&'static str] {
     match series {
-        Series::Pt => &[
-            "size",
-            "rotor",
-            "stator",
-            "thread",
-            "A",
-            "B",
-            "C",
-            "stator ⌀",
-            "stator screws on ⌀",
-            "connector",
-            "thickness",
-        ],
-        _ => &[
-            "size",
-            "rotor, inner ⌀",
-            "stator, outer ⌀",
-            "rotor screws on ⌀",
-            "stator screws on ⌀",
-            "connector",
-            "thickness",
-        ],
+        Series::Pt => {
+            const {
+                &[
+                    msg("size"),
+                    msg("rotor"),
+                    msg("stator"),
+                    msg("thread"),
+                    "A",
+                    "B",
+                    "C",
+                    msg("stator ⌀"),
+                    msg("stator screws on ⌀"),
+                    msg("connector"),
+                    msg("thickness"),
+                ]
+            }
+        }
+        _ => {
+            const {
+                &[
+                    msg("size"),
+                    msg("rotor, inner ⌀"),
+                    msg("stator, outer ⌀"),
+                    msg("rotor screws on ⌀"),
+                    msg("stator screws on ⌀"),
+                    msg("connector"),
+                    msg("thickness"),
+                ]
+            }
+        }
     }
 }
 
 /// The cells of a row, and over how many columns each goes.
 fn cells(size: &Size) -> Vec<(String, &'static str)> {
-    let number = |number: f64| number.to_string();
+    let said = |length: f64| number(length).to_string();
     let diameter = size.stator_diameter().to_string();
     let mut cells = match size.mount {
         Mount::Screws(circle) => vec![
             (size.rotor_diameter().to_string(), "1"),
             (diameter, "1"),
-            (number(circle), "1"),
+            (said(circle), "1"),
         ],
         Mount::Thread(thread, abc) => vec![
-            ("thread".to_owned(), "1"),
+            (t("thread").to_owned(), "1"),
             (side(size), "1"),
-            (thread.to_owned(), "1"),
-            (number(abc), "3"),
+            (number(thread.replace("mm", t("mm"))).to_string(), "1"),
+            (said(abc), "3"),
             (diameter, "1"),
         ],
         Mount::Bonded(a, b, c) => vec![
-            ("bonded".to_owned(), "1"),
+            (t("bonded").to_owned(), "1"),
             (side(size), "1"),
             ("–".to_owned(), "1"),
-            (number(a), "1"),
-            (number(b), "1"),
-            (number(c), "1"),
+            (said(a), "1"),
+            (said(b), "1"),
+            (said(c), "1"),
             (diameter, "1"),
         ],
     };
     cells.extend([
-        (number(size.stator_circle), "1"),
+        (said(size.stator_circle), "1"),
         (size.connector().to_owned(), "1"),
-        (size.thickness.map_or(String::new(), number), "1"),
+        (size.thickness.map_or(String::new(), said), "1"),
     ]);
     cells
 }
 
 fn side(size: &Size) -> String {
     match size.is_back_mounted() {
-        true => "front and back".to_owned(),
-        false => "front".to_owned(),
+        true => t("front and back").to_owned(),
+        false => t("front").to_owned(),
     }
 }
 
 #[component]
 fn Sizes(title: &'static str, sizes: Vec<&'static Size>) -> impl IntoView {
     let Some(first) = sizes.first() else {
-        return view! { <p class="hint">{format!("The size table of {title} has none so wide.")}</p> }
+        return view! { <p class="hint">{text!("The size table of {} has none so wide.", title)}</p> }
             .into_any();
     };
     let (series, heads) = (first.series, columns(first.series));
@@ -286,22 +296,22 @@ fn Sizes(title: &'static str, sizes: Vec<&'static Size>) -> impl IntoView {
         }
     });
     let source = match series {
-        Series::Pt => {
-            "PT, size. A, B and C are the rotor's fitting diameters (H7), the stator's is h7; of a rotor with a thread the manual prints one number for all three."
-        }
-        _ => "MPP, dimensions and connectors.",
+        Series::Pt => t(
+            "PT, size. A, B and C are the rotor's fitting diameters (H7), the stator's is h7; of a rotor with a thread the manual prints one number for all three.",
+        ),
+        _ => t("MPP, dimensions and connectors."),
     };
     view! {
-        <Scroll label=format!("Sizes of {title}")>
+        <Scroll label=text!("Sizes of {}", t(title))>
             <table class="sizes">
-                <caption>{format!("Sizes of {title}, mm")}</caption>
+                <caption>{text!("Sizes of {}, mm", t(title))}</caption>
                 <thead>
-                    <tr>{heads.iter().map(|head| view! { <th scope="col">{*head}</th> }).collect_view()}</tr>
+                    <tr>{heads.iter().map(|head| view! { <th scope="col">{t(head)}</th> }).collect_view()}</tr>
                 </thead>
                 <tbody>{rows.collect_view()}</tbody>
             </table>
         </Scroll>
-        <p class="source">"Source: " {source} " " {THICKNESS}</p>
+        <p class="source">{t("Source: ")} {source} " " {t(THICKNESS)}</p>
     }
     .into_any()
 }

@@ -11,7 +11,11 @@ use crate::{
         calculator::CopyLink,
     },
 };
-use encoderscope::apci1710::{MODULE_BYTES, Register, SOURCE};
+use encoderscope::{
+    apci1710::{MODULE_BYTES, Register, SOURCE},
+    language::t,
+    text,
+};
 use explainer::Explainer;
 use leptos::prelude::*;
 use shift::Shift;
@@ -51,16 +55,16 @@ pub(super) fn Page() -> impl IntoView {
     });
     view! {
         <p class="about">
-            "The SSI module of the boards APCI-1710 and CPCI-1710 clocks up to three encoders. What is written to it is worked out by the "
-            <a href=calculator>"calculator"</a>
-            "; what a register holds is taken apart here."
+            {t("The SSI module of the boards APCI-1710 and CPCI-1710 clocks up to three encoders. What is written to it is worked out by the ")}
+            <a href=calculator>{t("calculator")}</a>
+            {t("; what a register holds is taken apart here.")}
         </p>
         <Map />
         {plain.into_view()}
         <Shift />
         <p class="source">
-            "Source: " {SOURCE}
-            "; offsets of SHIFT and OUTPUT: Linux, comedi, APCI1710_Ssi.c"
+            {t("Source: ")} {t(SOURCE)}
+            {t("; offsets of SHIFT and OUTPUT: Linux, comedi, APCI1710_Ssi.c")}
         </p>
         <CopyLink />
     }
@@ -74,7 +78,7 @@ fn Map() -> impl IntoView {
             <tr data-testid="register-row" data-name=register.name() data-value=register.offset()>
                 <th scope="row">{register.title()}</th>
                 <td class="number">{format!("+{}", register.offset())}</td>
-                <td>{register.access().name()}</td>
+                <td>{t(register.access().name())}</td>
                 <td class="number">{register.width()}</td>
                 <td class="words doc">{register.layout().title()}</td>
             </tr>
@@ -82,20 +86,20 @@ fn Map() -> impl IntoView {
     });
     view! {
         <section class="part" aria-labelledby="register-map">
-            <h2 id="register-map">"A module"</h2>
+            <h2 id="register-map">{t("A module")}</h2>
             <p class="hint">
-                {format!("A board has four; the registers of module n begin at {MODULE_BYTES} · n bytes from the address of the board.")}
+                {text!("A board has four; the registers of module n begin at {} · n bytes from the address of the board.", MODULE_BYTES)}
             </p>
-            <Scroll label="Registers of a module".to_owned()>
+            <Scroll label=t("Registers of a module").to_owned()>
                 <table>
-                    <caption class="unseen">"Registers of a module"</caption>
+                    <caption class="unseen">{t("Registers of a module")}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"register"</th>
-                            <th scope="col">"byte"</th>
-                            <th scope="col">"is for"</th>
-                            <th scope="col">"bits"</th>
-                            <th scope="col">"what it is"</th>
+                            <th scope="col">{t("register")}</th>
+                            <th scope="col">{t("byte")}</th>
+                            <th scope="col">{t("is for")}</th>
+                            <th scope="col">{t("bits")}</th>
+                            <th scope="col">{t("what it is")}</th>
                         </tr>
                     </thead>
                     <tbody>{rows.into_view()}</tbody>

@@ -12,6 +12,8 @@ use super::{
 use crate::{app::App, handout::save_text};
 use encoderscope::{
     calculator::Fault,
+    language::t,
+    text,
     wiring::{
         Adapter, Battery, End, OHMS, Paint, Place, Presence, Setup, Terminator, Warning, Wire,
         Wiring, svg,
@@ -36,25 +38,25 @@ pub(super) fn Page() -> impl IntoView {
         entry.unwrap_or_else(|| Battery::None.key().to_owned())
     });
     let batteries = Battery::ALL.map(|battery| match battery {
-        Battery::None => (battery.key(), "no battery"),
-        Battery::Fitted => (battery.key(), "battery: models BM"),
+        Battery::None => (battery.key(), t("no battery")),
+        Battery::Fitted => (battery.key(), t("battery: models BM")),
     });
     let adapters = Adapter::ALL.map(|adapter| (adapter.key(), adapter.title()));
     view! {
-        <section class="part" aria-label="What is wired">
+        <section class="part" aria-label=t("What is wired")>
             <div class="form">
                 <EncoderChoice />
                 <Choice
                     name="battery"
-                    title="Battery"
-                    hint="BM behind the bits of the order code"
+                    title=t("Battery")
+                    hint=t("BM behind the bits of the order code")
                     words=batteries.to_vec()
                     chosen=battery
                 />
                 <Choice
                     name="adapter"
-                    title="Other end"
-                    hint="what the encoder is connected to"
+                    title=t("Other end")
+                    hint=t("what the encoder is connected to")
                     words=adapters.to_vec()
                     chosen=adapter
                 />
@@ -86,10 +88,10 @@ fn Refused(fault: Fault, setup: Option<Setup>) -> impl IntoView {
         .collect();
     let fits = !doors.is_empty();
     view! {
-        <section class="part" aria-label="What does not work">
+        <section class="part" aria-label=t("What does not work")>
             <p class="fault" data-testid="wiring-fault" data-input=fault.input>{sentence(&fault)}</p>
             {fits.then(|| view! {
-                <p>"What fits:"</p>
+                <p>{t("What fits:")}</p>
                 <ul class="doors">{doors}</ul>
             })}
         </section>
@@ -109,7 +111,7 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
     let profile = setup.interface.format().default_profile();
     let supply = wiring.supply.iter();
     let supply: Vec<_> = supply
-        .map(|fact| format!("{} {}", fact.name, fact.value))
+        .map(|fact| format!("{} {}", t(fact.name), t(fact.value)))
         .collect();
     let characteristics = filled_link(
         Leaf::Topic(Topic::Products),
@@ -124,19 +126,19 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
         ],
     );
     view! {
-        <section class="part" aria-label="Picture and wires">
+        <section class="part" aria-label=t("Picture and wires")>
             <div class="wired">
                 <div class="wiring-picture" data-testid="wiring-picture" inner_html=picture.get_value()></div>
-                <Scroll label="Wires".to_owned()>
-                    <table class="wires">
-                        <caption>"Wires"</caption>
+                <Scroll label=t("Wires").to_owned()>
+                    <table>
+                        <caption>{t("Wires")}</caption>
                         <thead>
                             <tr>
-                                <th scope="col">"pin"</th>
-                                <th scope="col">"colour"</th>
-                                <th scope="col">"signal"</th>
-                                <th scope="col">"goes to"</th>
-                                <th scope="col">"to know"</th>
+                                <th scope="col">{t("pin")}</th>
+                                <th scope="col">{t("colour")}</th>
+                                <th scope="col">{t("signal")}</th>
+                                <th scope="col">{t("goes to")}</th>
+                                <th scope="col">{t("to know")}</th>
                             </tr>
                         </thead>
                         <tbody>{wiring.wires.into_iter().map(wire_row).collect_view()}</tbody>
@@ -144,7 +146,7 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
                 </Scroll>
             </div>
             <p data-testid="wiring-supply">
-                <a href=characteristics>"Characteristics"</a>
+                <a href=characteristics>{t("Characteristics")}</a>
                 ": " {supply.join(", ")} "."
             </p>
             <p class="doors">
@@ -152,24 +154,24 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
                     data-testid="save-svg"
                     on:click=move |_| picture.with_value(|picture| save_text(picture, &name))
                 >
-                    "Save as SVG"
+                    {t("Save as SVG")}
                 </button>
-                <button on:click=move |_| { let _ = window().print(); }>"Print"</button>
+                <button on:click=move |_| { let _ = window().print(); }>{t("Print")}</button>
             </p>
             <CopyLink />
-            <p class="source">"Source: " {wiring.source}</p>
+            <p class="source">{t("Source: ")} {wiring.source}</p>
         </section>
         <section class="part" aria-labelledby="terminators-title">
-            <h2 id="terminators-title">"Terminators"</h2>
-            <Scroll label="Terminators".to_owned()>
+            <h2 id="terminators-title">{t("Terminators")}</h2>
+            <Scroll label=t("Terminators").to_owned()>
                 <table>
-                    <caption class="unseen">{format!("Resistors of {OHMS} Ω")}</caption>
+                    <caption class="unseen">{text!("Resistors of {} Ω", OHMS)}</caption>
                     <thead>
                         <tr>
-                            <th scope="col">"between"</th>
-                            <th scope="col">"at the end of"</th>
-                            <th scope="col">"is it there"</th>
-                            <th scope="col">"source"</th>
+                            <th scope="col">{t("between")}</th>
+                            <th scope="col">{t("at the end of")}</th>
+                            <th scope="col">{t("is it there")}</th>
+                            <th scope="col">{t("source")}</th>
                         </tr>
                     </thead>
                     <tbody>{wiring.terminators.into_iter().map(terminator_row).collect_view()}</tbody>
@@ -177,12 +179,12 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
             </Scroll>
         </section>
         <section class="part" aria-labelledby="beware-title">
-            <h2 id="beware-title">"Beware"</h2>
+            <h2 id="beware-title">{t("Beware")}</h2>
             <ul class="warnings">{wiring.warnings.into_iter().map(warning).collect_view()}</ul>
             <p class="ways">
-                <a href=link(&profile, None)>{format!("{}, the format", profile.title())}</a>
-                <a href=order_code>"Order codes"</a>
-                <a href=zero>"Setting the zero"</a>
+                <a href=link(&profile, None)>{text!("{}, the format", t(profile.title()))}</a>
+                <a href=order_code>{t("Order codes")}</a>
+                <a href=zero>{t("Setting the zero")}</a>
             </p>
         </section>
     }
@@ -190,18 +192,19 @@ fn Drawn(wiring: Wiring) -> impl IntoView {
 
 fn wire_row(wire: Wire) -> impl IntoView {
     let goes = match wire.goes {
-        None => "nowhere".to_owned(),
+        None => t("nowhere").to_owned(),
         Some(terminal) => {
             let place = match terminal.place {
-                Place::Supply => "supply",
-                Place::Adapter => "adapter",
-                Place::Battery => "battery",
-                Place::Switch => "input at",
+                Place::Supply => t("supply"),
+                Place::Adapter => t("adapter"),
+                Place::Battery => t("battery"),
+                Place::Switch => t("input at"),
             };
-            format!("{place} {}", terminal.name)
+            format!("{place} {}", t(terminal.name))
         }
     };
     let colour = wire.paint.map_or("–".to_owned(), Paint::name);
+    let shown = wire.paint.map_or("–".to_owned(), Paint::title);
     view! {
         <tr
             data-testid="wiring-row"
@@ -211,10 +214,10 @@ fn wire_row(wire: Wire) -> impl IntoView {
             data-goes=goes.clone()
         >
             <td>{wire.pin.map_or("–".to_owned(), |pin| pin.to_string())}</td>
-            <td class="words">{wire.paint.map(swatch)} " " {colour.clone()}</td>
-            <th scope="row">{wire.signal}</th>
+            <td class="words">{wire.paint.map(swatch)} " " {shown}</td>
+            <th scope="row">{t(wire.signal)}</th>
             <td class="words">{goes.clone()}</td>
-            <td class="words doc">{wire.note}</td>
+            <td class="words doc">{t(wire.note)}</td>
         </tr>
     }
 }
@@ -234,21 +237,21 @@ fn swatch(paint: Paint) -> impl IntoView {
 fn terminator_row(terminator: Terminator) -> impl IntoView {
     let (plus, minus) = terminator.between;
     let end = match terminator.end {
-        End::Encoder => "the encoder",
-        End::Controller => "the controller",
+        End::Encoder => t("the encoder"),
+        End::Controller => t("the controller"),
     };
     let (name, word, tone) = match terminator.presence {
-        Presence::Inside => ("inside", "yes: ", "good"),
-        Presence::Switched => ("switched", "to switch on: ", "warn"),
-        Presence::Added => ("added", "no: ", "warn"),
-        Presence::Unclear => ("unclear", "the manuals differ: ", "warn"),
+        Presence::Inside => ("inside", t("yes: "), "good"),
+        Presence::Switched => ("switched", t("to switch on: "), "warn"),
+        Presence::Added => ("added", t("no: "), "warn"),
+        Presence::Unclear => ("unclear", t("the manuals differ: "), "warn"),
     };
     view! {
         <tr data-testid="wiring-terminator" data-value=name>
-            <th scope="row">{format!("{plus} and {minus}")}</th>
+            <th scope="row">{text!("{} and {}", t(plus), t(minus))}</th>
             <td class="words">{end}</td>
-            <td class="words"><b class=format!("presence {tone}")>{word}</b> {terminator.text}</td>
-            <td class="words doc">{terminator.source}</td>
+            <td class="words"><b class=format!("presence {}", tone)>{word}</b> {t(terminator.text)}</td>
+            <td class="words doc">{t(terminator.source)}</td>
         </tr>
     }
 }

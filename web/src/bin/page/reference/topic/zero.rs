@@ -9,7 +9,10 @@ use super::{
     Topic,
 };
 use crate::app::App;
-use encoderscope::procedure::{Missing, Procedure, Step, Zero, zero};
+use encoderscope::{
+    language::t,
+    procedure::{Missing, Procedure, Step, Zero, zero},
+};
 use encoderscope_web::link::query;
 use leptos::prelude::*;
 
@@ -25,7 +28,7 @@ pub(super) fn Page() -> impl IntoView {
         encoder.unwrap_or_else(|| filled_link(Leaf::Topic(Topic::Wiring), &[]))
     };
     view! {
-        <section class="part" aria-label="Which encoder">
+        <section class="part" aria-label=t("Which encoder")>
             <div class="form">
                 <EncoderChoice />
             </div>
@@ -39,7 +42,7 @@ pub(super) fn Page() -> impl IntoView {
             }}
         </div>
         <p class="ways">
-            <a href=wiring>"The wires of this encoder"</a>
+            <a href=wiring>{t("The wires of this encoder")}</a>
         </p>
         <CopyLink />
     }
@@ -51,7 +54,7 @@ fn Ways(zero: Zero) -> impl IntoView {
     view! {
         {zero.procedures.into_iter().map(procedure).collect_view()}
         <section class="part" aria-labelledby="missing-title">
-            <h2 id="missing-title">"What there is not"</h2>
+            <h2 id="missing-title">{t("What there is not")}</h2>
             <ul class="warnings">{missing.map(missing_item).collect_view()}</ul>
         </section>
     }
@@ -61,8 +64,8 @@ fn procedure(procedure: Procedure) -> impl IntoView {
     let id = format!("way-{}", procedure.name);
     let console = procedure.console.map(|profile| {
         let text = match procedure.change {
-            Some(_) => "The console does this step by step",
-            None => "The console watches this and ticks what it sees",
+            Some(_) => t("The console does this step by step"),
+            None => t("The console watches this and ticks what it sees"),
         };
         view! {
             <p class="ways">

@@ -2,7 +2,11 @@
 
 use super::write;
 use crate::app::App;
-use encoderscope::model::{self, FORMS, Form, Look, Place};
+use encoderscope::{
+    language::t,
+    model::{self, FORMS, Form, Look, Place},
+    text,
+};
 use leptos::prelude::*;
 
 /// A choice for every part, which writes the code.
@@ -72,10 +76,10 @@ pub(super) fn Composer(looks: Memo<Vec<Look>>) -> impl IntoView {
     };
     view! {
         <section class="part" aria-labelledby="order-composer">
-            <h2 id="order-composer">"Compose one"</h2>
+            <h2 id="order-composer">{t("Compose one")}</h2>
             <div class="order-form">
                 <label>
-                    "series"
+                    {t("series")}
                     <select
                         data-testid="order-compose"
                         data-position="series"
@@ -101,7 +105,7 @@ fn all_series() -> impl Iterator<Item = (&'static str, &'static str)> {
         let words = series.map_or(&[][..], |part| part.words);
         let short = series
             .is_none()
-            .then_some((SHORT, "short form of MPP and PT"));
+            .then_some((SHORT, t("short form of MPP and PT")));
         words.iter().map(|word| (word.text, word.text)).chain(short)
     })
 }
@@ -165,10 +169,10 @@ fn options(form: &'static Form, index: usize, texts: &[String]) -> Vec<AnyView> 
             }
             let doc = match form.compose(&with) {
                 Ok(_) => token.doc(),
-                Err(_) => format!("{}; not with the rest", token.doc()),
+                Err(_) => text!("{}; not with the rest", token.doc()),
             };
             let title = match text.as_str() {
-                "" => format!("nothing: {doc}"),
+                "" => text!("nothing: {}", doc),
                 text => format!("{text}: {doc}"),
             };
             view! { <option value=text.clone() prop:selected=text == present>{title}</option> }

@@ -5,7 +5,9 @@ use encoderscope::{
     apci1710::{Register, WORD_BITS},
     bits,
     explain::Note,
+    language::t,
     layout::Class,
+    text,
 };
 use leptos::prelude::*;
 
@@ -52,7 +54,7 @@ pub(super) fn Explainer(
             <p class="hint">{register.layout().title()} "."</p>
             {children.map(|children| children())}
             <div class="asked">
-                <label for=id.clone()>"Value"</label>
+                <label for=id.clone()>{t("Value")}</label>
                 <span class="entered">
                     <input
                         id=id.clone()
@@ -64,13 +66,13 @@ pub(super) fn Explainer(
                         on:input:target=move |event| book.enter(name, &event.target().value())
                     />
                 </span>
-                <p class="hint">"decimal, or behind 0x or 0b"</p>
+                <p class="hint">{t("decimal, or behind 0x or 0b")}</p>
             </div>
             {fault}
             <div
                 class="bits bytes big"
                 role="group"
-                aria-label=format!("Bits of {}; a click turns one over", heading)
+                aria-label=text!("Bits of {}; a click turns one over", heading)
             >
                 {octets}
             </div>
@@ -144,7 +146,7 @@ fn written(value: u32, before: &str, width: usize) -> String {
 }
 
 fn title(note: &Note) -> String {
-    note.name.replace('_', " ")
+    t(note.name).replace('_', " ")
 }
 
 fn field(note: Note) -> impl IntoView {
@@ -159,10 +161,7 @@ fn field(note: Note) -> impl IntoView {
         >
             <span class="name">{title(&note)}</span>
             <span class="raw">
-                {match spans {
-                    1 => "1 bit".to_owned(),
-                    bits => format!("{bits} bits"),
-                }}
+                {text!("{} {0|bit|bits}", spans)}
             </span>
             <div class="says">
                 <p>{note.text}</p>

@@ -8,8 +8,10 @@ use encoderscope::{
     decode::Decoder,
     explain::{Note, degrees_text, grouped, grouped_signed},
     format::{Format, Link},
+    language::{number, t},
     profile::{Code, Profile},
     reading::Values,
+    text,
 };
 use leptos::prelude::*;
 
@@ -99,7 +101,7 @@ pub(super) fn Shift() -> impl IntoView {
         <Explainer register=register name="shift" text=text value=value notes=notes>
             <Whose shared=shared profile=profile />
             <div class="asked">
-                <label for="register-channel">"Encoder"</label>
+                <label for="register-channel">{t("Encoder")}</label>
                 <select
                     id="register-channel"
                     data-testid="register-channel"
@@ -129,17 +131,23 @@ pub(super) fn Shift() -> impl IntoView {
 fn said(profile: Profile, form: Form, channel: Channel) -> String {
     let bit = channel.number() - 1;
     match (form, profile.code) {
-        (Form::Plain, Code::Gray) => format!(
-            "D{bit} of CONTROL is 0: the word is the Gray code of the encoder, to be converted by the program."
+        (Form::Plain, Code::Gray) => text!(
+            "D{} of CONTROL is 0: the word is the Gray code of the encoder, to be converted by the program.",
+            bit
         ),
         (Form::Plain, Code::Binary) => {
-            format!("D{bit} of CONTROL is 0: the word stands as the encoder sends it.")
+            text!(
+                "D{} of CONTROL is 0: the word stands as the encoder sends it.",
+                bit
+            )
         }
-        (Form::Converted, Code::Gray) => format!(
-            "D{bit} of CONTROL is 1: the module has converted the Gray code; what stands behind the number means nothing."
+        (Form::Converted, Code::Gray) => text!(
+            "D{} of CONTROL is 1: the module has converted the Gray code; what stands behind the number means nothing.",
+            bit
         ),
-        (Form::Converted, Code::Binary) => format!(
-            "D{bit} of CONTROL is 1, but this encoder sends binary: the module has garbled the word. Here that is taken back; set the bit to 0."
+        (Form::Converted, Code::Binary) => text!(
+            "D{} of CONTROL is 1, but this encoder sends binary: the module has garbled the word. Here that is taken back; set the bit to 0.",
+            bit
         ),
     }
 }
@@ -153,13 +161,8 @@ fn Whose(shared: Memo<Profile>, profile: Memo<Profile>) -> impl IntoView {
         (shared != profile).then(|| {
             view! {
                 <p class="hint" data-testid="shift-profile">
-                    {format!(
-                        "This encoder speaks {}, which no SSI module reads: the word is read as that of {}, {} bits. ",
-                        shared.title(),
-                        profile.title(),
-                        profile.frame_bits
-                    )}
-                    <a href=book.fragment(&profile)>"Take this encoder"</a>
+                    {text!("This encoder speaks {}, which no SSI module reads: the word is read as that of {}, {} bits. ", t(shared.title()), t(profile.title()), profile.frame_bits)}
+                    <a href=book.fragment(&profile)>{t("Take this encoder")}</a>
                 </p>
             }
         })
@@ -177,19 +180,19 @@ fn Position(held: Memo<Held>, profile: Memo<Profile>) -> impl IntoView {
             view! {
                 <p class="fault" data-testid="shift-fault">
                     {error.to_string()} ". "
-                    <a href=book.fragment(&known)>"Take a word of 25 bits"</a>
+                    <a href=book.fragment(&known)>{t("Take a word of 25 bits")}</a>
                 </p>
             }
         });
         let bad = held.error.is_none() && held.angle.is_some() && !held.ok;
         let bad = bad.then(|| {
-            view! { <p class="fault" data-testid="shift-bad">"Not a good word: see below."</p> }
+            view! { <p class="fault" data-testid="shift-bad">{t("Not a good word: see below.")}</p> }
         });
         view! {
             <dl class="held">
                 {held.turns.map(|turns| view! {
                     <div>
-                        <dt>"turns"</dt>
+                        <dt>{t("turns")}</dt>
                         <dd class="name turns" data-testid="shift-turns" data-value=turns.to_string()>
                             {grouped_signed(turns)}
                         </dd>
@@ -197,10 +200,10 @@ fn Position(held: Memo<Held>, profile: Memo<Profile>) -> impl IntoView {
                 })}
                 {held.angle.map(|angle| view! {
                     <div>
-                        <dt>"angle"</dt>
+                        <dt>{t("angle")}</dt>
                         <dd class="name angle" data-testid="shift-angle" data-value=angle.to_string()>
-                            {degrees_text(angle, angle_bits, 4)} "° "
-                            <span class="hint">{format!("{} counts", grouped(angle))}</span>
+                            {number(degrees_text(angle, angle_bits, 4)).to_string()} "° "
+                            <span class="hint">{text!("{} counts", grouped(angle))}</span>
                         </dd>
                     </div>
                 })}
