@@ -263,7 +263,8 @@ test('a recording that was deleted comes back when that is undone', async ({ pag
   await expect(row(newer)).toHaveCount(0);
 });
 
-test('a deletion is done after a while', async ({ page }) => {
+test('a deletion is done after a while, on a phone too', async ({ page }) => {
+  await page.setViewportSize({ width: 390, height: 844 });
   await page.clock.install();
   await demo(page);
   await record(page);
